@@ -1,0 +1,55 @@
+// Structure-of-arrays particle fields, made on request: what nobody asks for is never allocated, sorted or saved.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "cellgrid/types.hpp"
+
+namespace freshet {
+
+enum class Carry {
+  no,    // scratch of one step: neither sorted nor saved
+  sort,  // belongs to its particle: permuted by the sort
+  state  // as sort, and part of the restart state
+};
+
+template <class T>
+struct NamedField {
+  std::string name;
+  std::string unit;  // SI, "m", "m/s", "1"
+  Carry carry;
+  Field<T> data;  // capacity() values, of which the first size() are particles
+};
+
+class FieldSet {
+ public:
+  explicit FieldSet(int size = 0);
+
+  int size() const { return size_; }
+  int capacity() const { return capacity_; }
+
+  // Changes the particle count. Existing values stay; the capacity grows by half when it is too small (the only
+  // allocation that a step may cause). Views obtained before a growth are stale: ask again.
+  void resize(int size);
+
+  // The field of that name, zero-filled and created on first use; unit and carry are taken from the first request.
+  Field<double> real(const std::string& name, const std::string& unit = "1", Carry carry = Carry::no);
+  Field<int> integer(const std::string& name, const std::string& unit = "1", Carry carry = Carry::no);
+
+  bool has(const std::string& name) const;
+
+  // Every sorted field becomes field[order[i]] for i < size.
+  void permute(const Input<int>& order, int size);
+
+  const std::vector<NamedField<double>>& reals() const { return reals_; }
+  const std::vector<NamedField<int>>& integers() const { return integers_; }
+
+ private:
+  int size_ = 0, capacity_ = 0;
+  std::vector<NamedField<double>> reals_;
+  std::vector<NamedField<int>> integers_;
+  Field<double> spare_real_;
+  Field<int> spare_integer_;
+};
+
+}  // namespace freshet

@@ -1,0 +1,47 @@
+// Names shared by every part: the execution space, particle fields, and profile regions.
+#pragma once
+#include <Kokkos_Core.hpp>
+
+#include <string>
+
+namespace freshet {
+
+#ifdef FRESHET_SERIAL
+using Exec = Kokkos::Serial;
+#else
+using Exec = Kokkos::DefaultExecutionSpace;
+#endif
+using Memory = Exec::memory_space;
+using Range = Kokkos::RangePolicy<Exec>;
+
+template <class T>
+using Field = Kokkos::View<T*, Memory>;  // one value per particle
+template <class T>
+using Input = Kokkos::View<const T*, Memory>;
+
+// A field's host-readable copy (no copy at all where the execution space shares the host's memory).
+template <class View>
+auto on_host(const View& view) {
+  return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view);
+}
+
+// A named span in the profile: lives as long as the scope.
+class Region {
+ public:
+  explicit Region(const char* label) { Kokkos::Profiling::pushRegion(label); }
+  ~Region() { Kokkos::Profiling::popRegion(); }
+  Region(const Region&) = delete;
+  Region& operator=(const Region&) = delete;
+};
+
+// Ternaries rather than std::min/max: they vectorise and compile for devices.
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION constexpr T smaller(T a, T b) {
+  return b < a ? b : a;
+}
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION constexpr T larger(T a, T b) {
+  return a < b ? b : a;
+}
+
+}  // namespace freshet

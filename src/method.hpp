@@ -1,0 +1,67 @@
+// What the run loop needs of a method: the only virtual interface between solvers and the program.
+#pragma once
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cellgrid/fields.hpp"
+#include "src/scene/scene.hpp"
+
+namespace freshet {
+
+// Water volumes; 1-D scenes have unit width.
+struct Totals {
+  double mass = 0;      // m3, fluid particles only
+  double inflow = 0;    // m3 entered through open boundaries since t = 0 (particles counted as they cross the line)
+  double outflow = 0;   // m3 left
+  double flux = 0;      // m3, time integral of depth x inward normal velocity along the open lines
+  double flux_gross = 0;  // m3, the same with |normal velocity|
+  double straddle = 0;  // m3, change since t = 0 of the part of particles' footprints that lies across the line
+};
+
+// State at a fixed point: Shepard mean over the fluid particles within 2h.
+struct PointState {
+  double bed = 0;         // m
+  double depth = 0;       // m, 0 if no particle reaches the point
+  bool reached = false;   // some particle's support covers it
+};
+
+// How the numerics of the last step fared.
+struct StepReport {
+  double newton_mean = 0;     // density iterations per cluster
+  int newton_max = 0;
+  long rebuilds = 0;          // neighbour lists made again because h outgrew the margin, since t = 0
+  int capped = 0, floored = 0;  // particles whose h sits at its bounds
+};
+
+// Scalars that a method must find again on resume, by name.
+using ScalarState = std::map<std::string, std::vector<double>>;
+
+class Method {
+ public:
+  virtual ~Method() = default;
+
+  virtual std::string name() const = 0;
+  virtual int dimension() const = 0;
+  virtual double stable_dt() const = 0;               // s, for the state at hand
+  virtual void step(double t, double dt) = 0;         // from t to t + dt
+  // Fields of a shallow-water method: x, y [m], u, v [m/s], depth [m], bed [m], mass [m3], h [m], id (int),
+  // kind (int, only with open boundaries: 0 fluid, 1 boundary particle). 1-D has no y, v; a flat bed has no bed field.
+  virtual FieldSet& fields() = 0;
+  virtual const FieldSet& fields() const = 0;
+  virtual Totals totals() const = 0;
+  virtual StepReport report() const = 0;
+  virtual std::vector<PointState> sample(const std::vector<Point>& points) const = 0;
+  // Highest bed level [m] under a fluid particle at least min_depth deep within radius of the point; -1e300 if none.
+  virtual double highest_wet_bed(const Point& at, double radius, double min_depth) const = 0;
+  virtual std::vector<std::string> features() const = 0;  // what this scene switched on, for `check` and the log
+
+  virtual ScalarState scalars() const = 0;                // with fields().reals()/integers() of Carry::state:
+  virtual void restore(const ScalarState& scalars) = 0;   // the whole state. Fields are filled before restore() is called.
+};
+
+// The method that the scene names; throws SceneError for an unknown name (src/swe/solver.cpp and others register here).
+std::unique_ptr<Method> make_method(const Scene& scene);
+
+}  // namespace freshet

@@ -1,0 +1,33 @@
+// Exact shallow-water solutions that scenes start from and are compared with.
+#pragma once
+#include <memory>
+#include <string>
+
+namespace freshet {
+
+struct FlowState {
+  double depth = 0;     // m
+  double u = 0, v = 0;  // m/s
+};
+
+class Exact {
+ public:
+  virtual ~Exact() = default;
+  virtual FlowState at(double x, double y, double t) const = 0;  // m, m, s
+  virtual double period() const { return 0; }                    // s; 0 = not periodic
+};
+
+// Wet dam break (Stoker 1957): depths left > right > 0 of a dam at x = dam.
+std::unique_ptr<Exact> stoker(double left_depth, double right_depth, double dam, double gravity);
+
+// Thacker (1981) in the bowl b = depth0 ((r/radius)^2 - 1) centred at (x0, y0).
+struct Bowl {
+  double depth0, radius;  // m: depth of the vertex, radius of the still shoreline
+  double x0 = 0, y0 = 0;  // m
+};
+// Planar surface, thesis (2.61): displacement xi [m].
+std::unique_ptr<Exact> thacker_planar(const Bowl& bowl, double xi, double gravity);
+// Axisymmetric surface: amplitude A in (0, 1).
+std::unique_ptr<Exact> thacker_radial(const Bowl& bowl, double amplitude, double gravity);
+
+}  // namespace freshet

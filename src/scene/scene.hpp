@@ -1,0 +1,129 @@
+// The scene: what is computed, as a plain value. Methods receive it; only src/scene knows files and options.
+// Lengths in m, times in s; 1-D scenes use x only. Optional = not named in the scene = not computed.
+#pragma once
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace freshet {
+
+using Point = std::array<double, 2>;                      // x, y [m]
+using Function = std::function<double(double, double)>;   // of x, y
+class Exact;                                              // src/reference/exact.hpp
+
+// A piecewise linear function of time; constant before its first and after its last entry.
+struct Series {
+  std::vector<double> t;      // s, strictly increasing
+  std::vector<double> value;  // SI
+  double at(double time) const;
+};
+
+struct Domain {
+  int dimension = 2;            // 1 or 2
+  Point low{0, 0}, high{1, 1};  // m
+};
+
+struct Bed {
+  Function elevation;             // m, upwards; absent = flat at zero: no bed pass
+  double spacing = 0;             // m, of the bottom particles (the bed lattice)
+  double filter = 0;              // m, standard deviation of the smoothing of the bed (0 = interpolated as given)
+  std::string description;        // "expression", "file bathymetry.asc (393 x 244 nodes)": for the read-back
+  std::array<double, 2> range{};  // m, lowest and highest value met on the bed lattice or in the file
+  int nodata = 0;                 // cells without a value in the file
+};
+
+struct Water {
+  double spacing = 0;                         // m, particle spacing dx
+  enum class Start { cells, equal_mass } start = Start::cells;
+  Function depth;                             // m; particles are placed where it is > wet_above
+  std::array<Function, 2> velocity;           // m/s; absent = at rest
+  double wet_above = 0;                       // m
+};
+
+struct Wall {
+  std::vector<Point> line;  // m; the water is on its left (1-D: one point; the water is on the domain's side)
+};
+
+struct OpenBoundary {
+  std::string name;
+  std::array<Point, 2> line;  // m; the water is on its left
+  enum class Kind { elevation, wave } kind = Kind::elevation;
+  // elevation: total free-surface level imposed, outgoing invariant kept (thesis 4.2).
+  // wave: level of the incoming wave alone; outgoing waves leave.
+  Series level;  // m
+};
+
+struct Gauge {
+  std::string name;
+  Point at{};
+  std::optional<Series> measured;  // m, free-surface elevation, times increasing
+  double peak_after = 0;           // s, peaks and arrivals are taken after this time
+  double arrival_level = 0.01;     // m, first crossing of this elevation counts as arrival
+};
+
+struct RunUp {
+  std::string name;
+  Point at{};
+  double radius = 0.05;      // m
+  double min_depth = 0.002;  // m
+  std::optional<std::array<double, 2>> measured;  // m, lowest and highest
+};
+
+enum class Stabilisation { none, lax_friedrichs, lax_friedrichs_muscl };
+enum class Acceleration { classical, variational };
+
+struct Sph {
+  double eta = 1.2;  // h / dx
+  Stabilisation stabilisation = Stabilisation::lax_friedrichs_muscl;
+  double strength = 1.0;  // factor on the Lax-Friedrichs term
+  Acceleration acceleration = Acceleration::variational;
+  double newton_tolerance = 1e-5;  // of the relative density residual
+  double h_floor = 0.6;            // x h0
+  double h_cap = 3.0;              // x h0
+};
+
+struct Compare {
+  std::shared_ptr<const Exact> exact;
+  double threshold = 1e-3;             // m, depth_l1_rel counts where the exact depth is above it
+  std::optional<double> grid_spacing;  // m, of the regular grid of grid_l2_rel (default: 1/200 of the domain)
+  int samples = 1;                     // depth_l1_rel is the median over this many times ...
+  double window = 0;                   // s, ... evenly spread over the last `window` seconds before the end
+};
+
+struct Output {
+  double every = 0;         // s, particle output (0 = first and last state only)
+  double gauges_every = 0;  // s (0 = as `every`)
+  double checkpoint_every = 600;  // s of wall clock
+};
+
+struct Limits {
+  double mass_error = 1e-6;  // relative
+  double speed = 1e4;        // m/s
+};
+
+struct Scene {
+  std::string name;
+  std::string method = "sph-swe";
+  std::string file;  // path as given, for messages
+  std::string text;  // the scene as read, overrides applied: written into every result
+  double gravity = 9.81;             // m/s2
+  std::optional<double> manning;     // s/m^(1/3)
+  double cfl = 0.4;
+  double end_time = 0;               // s
+  Domain domain;
+  Bed bed;
+  Water water;
+  std::vector<Wall> walls;
+  std::vector<OpenBoundary> boundaries;
+  std::vector<Gauge> gauges;
+  std::vector<RunUp> run_ups;
+  Sph sph;
+  Compare compare;
+  Output output;
+  Limits limits;
+};
+
+}  // namespace freshet
