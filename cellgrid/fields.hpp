@@ -8,10 +8,13 @@
 namespace freshet {
 
 enum class Carry {
-  no,    // scratch of one step: neither sorted nor saved
-  sort,  // belongs to its particle: permuted by the sort
-  state  // as sort, and part of the restart state
+  no,      // scratch of one step: neither sorted nor saved
+  sort,    // belongs to its particle: permuted by the sort
+  state,   // as sort, and part of the restart state
+  result   // made anew after each sort: not permuted, but part of the restart state
 };
+inline bool is_sorted(Carry c) { return c == Carry::sort || c == Carry::state; }
+inline bool is_saved(Carry c) { return c == Carry::state || c == Carry::result; }
 
 template <class T>
 struct NamedField {

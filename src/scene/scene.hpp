@@ -1,4 +1,5 @@
 // The scene: what is computed, as a plain value. Methods receive it; only src/scene knows files and options.
+// Its functions of x, y may keep state: call each from one thread at a time.
 // Lengths in m, times in s; 1-D scenes use x only. Optional = not named in the scene = not computed.
 #pragma once
 #include <array>
@@ -23,7 +24,7 @@ struct Series {
 
 struct Domain {
   int dimension = 2;            // 1 or 2
-  Point low{0, 0}, high{1, 1};  // m
+  Point low{0, 0}, high{1, 1};  // m; y = 0 in 1-D
 };
 
 struct Bed {
@@ -39,6 +40,7 @@ struct Water {
   double spacing = 0;                         // m, particle spacing dx
   enum class Start { cells, equal_mass } start = Start::cells;
   Function depth;                             // m; particles are placed where it is > wet_above
+  Function surface;                           // m; absent where the scene gives the depth: depth = surface - bed
   std::array<Function, 2> velocity;           // m/s; absent = at rest
   double wet_above = 0;                       // m
 };
@@ -49,7 +51,8 @@ struct Wall {
 
 struct OpenBoundary {
   std::string name;
-  std::array<Point, 2> line;  // m; the water is on its left
+  // m; the water is on its left. 1-D: (x, 1), (x, 0) at the left end and (x, 0), (x, 1) at the right end.
+  std::array<Point, 2> line{};
   enum class Kind { elevation, wave } kind = Kind::elevation;
   // elevation: total free-surface level imposed, outgoing invariant kept (thesis 4.2).
   // wave: level of the incoming wave alone; outgoing waves leave.
@@ -91,6 +94,7 @@ struct Compare {
   std::optional<double> grid_spacing;  // m, of the regular grid of grid_l2_rel (default: 1/200 of the domain)
   int samples = 1;                     // depth_l1_rel is the median over this many times ...
   double window = 0;                   // s, ... evenly spread over the last `window` seconds before the end
+  std::string description;             // "stoker: 10 m | 5 m, dam at 1000 m": for the read-back
 };
 
 struct Output {
@@ -108,7 +112,8 @@ struct Scene {
   std::string name;
   std::string method = "sph-swe";
   std::string file;  // path as given, for messages
-  std::string text;  // the scene as read, overrides applied: written into every result
+  std::string text;  // the scene as read, overrides applied, data files absolute: written into every result
+  std::vector<std::string> notes;  // what the reader decided on its own, one line each
   double gravity = 9.81;             // m/s2
   std::optional<double> manning;     // s/m^(1/3)
   double cfl = 0.4;

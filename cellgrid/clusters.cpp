@@ -1,0 +1,112 @@
+#include "cellgrid/clusters.hpp"
+
+#include <type_traits>
+
+namespace freshet {
+
+void ClusterSet::cut(const Rows& rows) {
+  if (row_start_.extent_int(0) < rows.rows + 1) row_start_ = Field<int>("cellgrid.row_start", static_cast<size_t>(rows.rows + 1));
+  const Field<int> row_start = row_start_;
+  const Rows r = rows;
+  Kokkos::parallel_scan("cellgrid::count_clusters", Range(0, rows.rows + 1), KOKKOS_LAMBDA(int row, int& sum, bool last) {
+        if (last) row_start(row) = sum;
+        if (row < r.rows) sum += (r.start((row + 1) * r.bins) - r.start(row * r.bins) + lanes - 1) / lanes;
+      });
+  Kokkos::deep_copy(size_, Kokkos::subview(row_start_, rows.rows));
+  if (first_.extent_int(0) < size_) {
+    const size_t room = static_cast<size_t>(size_ + size_ / 4 + 16);
+    first_ = Field<int>("cellgrid.cluster_first", room);
+    count_ = Field<int>("cellgrid.cluster_count", room);
+  }
+  const Field<int> first = first_, count = count_;
+  Kokkos::parallel_for("cellgrid::cut_clusters", Range(0, rows.rows), KOKKOS_LAMBDA(int row) {
+        const int end = r.start((row + 1) * r.bins);
+        int c = row_start(row);
+        for (int i = r.start(row * r.bins); i < end; i += lanes, ++c) {
+          first(c) = i;
+          count(c) = smaller(lanes, end - i);
+        }
+      });
+}
+
+namespace {
+
+// The axis-aligned box of a cluster's lanes.
+struct Box {
+  double xlo, xhi, ylo, yhi;
+};
+KOKKOS_FORCEINLINE_FUNCTION Box box_of(const Vec<Lane, 1>& x) { return {smallest(x.x), largest(x.x), 0.0, 0.0}; }
+KOKKOS_FORCEINLINE_FUNCTION Box box_of(const Vec<Lane, 2>& x) {
+  return {smallest(x.x), largest(x.x), smallest(x.y), largest(x.y)};
+}
+
+KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 1> broadcast(const Vec<double, 1>& a) { return {Lane(a.x)}; }
+KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 2> broadcast(const Vec<double, 2>& a) { return {Lane(a.x), Lane(a.y)}; }
+
+// Fills one cluster's slab; what does not fit is counted but not stored. Returns the full length.
+template <int D>
+struct Lister {
+  ClusterSet clusters;
+  VecField<double, D> x, source_x;
+  Field<double> h, source_h;
+  Rows sources;
+  double reach;  // factor (1 + margin)
+  NeighbourView out;
+  int slab;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int c, int& longest) const {
+    const Lanes me = clusters(c);
+    const Vec<Lane, D> xi = me.load(x);
+    const Lane reach_i = reach * me.load(h);
+    const Box b = box_of(xi);
+    const double mine = largest(reach_i);
+    const double far = larger(mine, reach * sources.largest_h(b.xlo, b.xhi, b.ylo, b.yhi));
+    int* list = &out.list(c, 0);
+    int n = 0;
+    sources.for_each_run(b.xlo, b.xhi, b.ylo, b.yhi, far, [&](int begin, int end) {
+      for (int j = begin; j < end; ++j) {
+        const Vec<Lane, D> d = xi - broadcast(at(source_x, j));
+        const Lane limit = larger(reach_i, Lane(reach * source_h(j)));
+        list[n < slab ? n : slab] = j;  // the slab's last entry takes the overflow
+        n += any(dot(d, d) < limit * limit);
+      }
+    });
+    out.length(c) = smaller(n, slab);
+    longest = larger(longest, n);
+  }
+};
+
+}  // namespace
+
+void NeighbourList::reserve(int clusters) {
+  if (view_.length.extent_int(0) >= clusters && view_.list.extent_int(1) > slab_) return;
+  const size_t room = static_cast<size_t>(larger(clusters + clusters / 4, 16));
+  view_.length = Field<int>("cellgrid.list_length", room);
+  view_.list = {};
+  view_.list = decltype(view_.list)(Kokkos::ViewAllocateWithoutInitializing("cellgrid.list"), room, static_cast<size_t>(slab_ + 1));
+}
+
+template <int D>
+void NeighbourList::build(const ClusterSet& clusters, const ListRequest<D>& request) {
+  int longest = 0;
+  do {
+    if (longest > slab_) slab_ = longest + longest / 4;
+    reserve(clusters.size());
+    const Lister<D> lister{clusters, request.x, request.source_x, request.h, request.source_h, request.source_rows,
+                           request.factor * (1 + request.margin), view_, slab_};
+    Kokkos::parallel_reduce("cellgrid::list", Range(0, clusters.size()), lister, Kokkos::Max<int>(longest));
+  } while (longest > slab_);
+}
+
+double NeighbourList::mean_length(const ClusterSet& clusters) const {
+  long sum = 0;
+  const Field<int> length = view_.length;
+  Kokkos::parallel_reduce("cellgrid::mean_length", Range(0, clusters.size()),
+      KOKKOS_LAMBDA(int c, long& s) { s += length(c); }, sum);
+  return clusters.size() > 0 ? static_cast<double>(sum) / clusters.size() : 0;
+}
+
+template void NeighbourList::build<1>(const ClusterSet&, const ListRequest<1>&);
+template void NeighbourList::build<2>(const ClusterSet&, const ListRequest<2>&);
+
+}  // namespace freshet

@@ -1,0 +1,82 @@
+#include "cellgrid/fields.hpp"
+
+#include <algorithm>
+
+namespace freshet {
+namespace {
+
+// Vector loads may read past the last particle, never past the padding.
+constexpr int padding = 16;
+
+template <class T>
+Field<T> allocate(const std::string& label, int capacity) {
+  return Field<T>(label, static_cast<size_t>(capacity + padding));
+}
+
+template <class T>
+void grow(Field<T>& field, int size, int capacity) {
+  Field<T> larger_field = allocate<T>(field.label(), capacity);
+  const auto kept = std::make_pair(0, size);
+  Kokkos::deep_copy(Kokkos::subview(larger_field, kept), Kokkos::subview(field, kept));
+  field = larger_field;
+}
+
+template <class T>
+NamedField<T>* find(std::vector<NamedField<T>>& fields, const std::string& name) {
+  const auto found = std::find_if(fields.begin(), fields.end(), [&](const auto& f) { return f.name == name; });
+  return found == fields.end() ? nullptr : &*found;
+}
+
+template <class T>
+Field<T> find_or_make(std::vector<NamedField<T>>& fields, const std::string& name, const std::string& unit, Carry carry,
+                      int capacity) {
+  if (NamedField<T>* known = find(fields, name)) return known->data;
+  fields.push_back({name, unit, carry, allocate<T>(name, capacity)});
+  return fields.back().data;
+}
+
+template <class T>
+void permute_all(std::vector<NamedField<T>>& fields, Field<T>& spare, const Input<int>& order, int size, int capacity) {
+  if (fields.empty()) return;
+  if (spare.extent_int(0) < capacity + padding) spare = allocate<T>("spare", capacity);
+  for (NamedField<T>& f : fields) {
+    if (!is_sorted(f.carry)) continue;
+    const Field<T> from = f.data, to = spare;
+    Kokkos::parallel_for("cellgrid::permute", Range(0, size), KOKKOS_LAMBDA(int i) { to(i) = from(order(i)); });
+    std::swap(f.data, spare);
+  }
+}
+
+}  // namespace
+
+FieldSet::FieldSet(int size) : size_(size), capacity_(size) {}
+
+void FieldSet::resize(int size) {
+  if (size > capacity_) {
+    capacity_ = size + size / 2 + 64;
+    for (auto& f : reals_) grow(f.data, size_, capacity_);
+    for (auto& f : integers_) grow(f.data, size_, capacity_);
+  }
+  size_ = size;
+}
+
+Field<double> FieldSet::real(const std::string& name, const std::string& unit, Carry carry) {
+  return find_or_make(reals_, name, unit, carry, capacity_);
+}
+
+Field<int> FieldSet::integer(const std::string& name, const std::string& unit, Carry carry) {
+  return find_or_make(integers_, name, unit, carry, capacity_);
+}
+
+bool FieldSet::has(const std::string& name) const {
+  const auto named = [&](const auto& f) { return f.name == name; };
+  return std::any_of(reals_.begin(), reals_.end(), named) ||
+         std::any_of(integers_.begin(), integers_.end(), named);
+}
+
+void FieldSet::permute(const Input<int>& order, int size) {
+  permute_all(reals_, spare_real_, order, size, capacity_);
+  permute_all(integers_, spare_integer_, order, size, capacity_);
+}
+
+}  // namespace freshet

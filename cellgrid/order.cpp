@@ -1,0 +1,145 @@
+#include "cellgrid/order.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace freshet {
+namespace {
+
+struct Extent {
+  double low, high;  // m
+};
+
+Extent extent_of(const Field<double>& x, const Field<int>& id, int n) {
+  Extent e{};
+  Kokkos::parallel_reduce(
+      "cellgrid::extent", Range(0, n),
+      KOKKOS_LAMBDA(int i, double& low, double& high) {
+        if (id(i) < 0) return;
+        low = smaller(low, x(i));
+        high = larger(high, x(i));
+      },
+      Kokkos::Min<double>(e.low), Kokkos::Max<double>(e.high));
+  return e.low <= e.high ? e : Extent{0, 0};
+}
+
+template <class View>
+void reserve(View& view, const char* label, int n) {
+  if (view.extent_int(0) < n) view = View(Kokkos::ViewAllocateWithoutInitializing(label), static_cast<size_t>(n + n / 2));
+}
+
+int cells(double length, double width) { return static_cast<int>(length / width) + 1; }
+
+// Restores the order by id within one bin; bins hold about one particle, but clustered input may fill them.
+KOKKOS_INLINE_FUNCTION void sort_by_id(int* order, int n, const int* id) {
+  for (int gap = n > 32 ? n / 2 : 1; gap > 0; gap /= 2)  // Shell's sort: insertion for the common case
+    for (int i = gap; i < n; ++i) {
+      const int moved = order[i];
+      int k = i;
+      for (; k >= gap && id[order[k - gap]] > id[moved]; k -= gap) order[k] = order[k - gap];
+      order[k] = moved;
+    }
+}
+
+}  // namespace
+
+RowOrder::RowOrder(int dimension, double spacing) : dimension_(dimension), spacing_(spacing) {}
+
+void RowOrder::lay_grid(const FieldSet& particles) {
+  const int n = particles.size();
+  const Extent ex = extent_of(x_, id_, n), ey = dimension_ == 2 ? extent_of(y_, id_, n) : Extent{0, 0};
+  const double longest = std::max({ex.high - ex.low, ey.high - ey.low, spacing_});
+  if (!std::isfinite(longest)) return;  // a lost particle: keep the last grid, the monitor reports it
+  rows_.x0 = ex.low;
+  rows_.y0 = ey.low;
+  rows_.row_height = 2 * spacing_;
+  rows_.bin_width = 0.5 * spacing_;
+  const double most = 8.0 * n + 1024;  // a stray particle must not make a huge grid
+  while ((ey.high - ey.low) / rows_.row_height > most) rows_.row_height *= 2;
+  rows_.rows = cells(ey.high - ey.low, rows_.row_height);
+  while ((ex.high - ex.low) / rows_.bin_width * rows_.rows > most) rows_.bin_width *= 2;
+  rows_.bins = cells(ex.high - ex.low, rows_.bin_width);
+}
+
+void RowOrder::count_bins(const FieldSet& particles) {
+  const int n = particles.size(), cell_count = rows_.rows * rows_.bins, dimension = dimension_;
+  reserve(rows_.start, "cellgrid.start", cell_count + 2);
+  reserve(key_, "cellgrid.key", n);
+  reserve(slot_, "cellgrid.slot", n);
+  const Rows rows = rows_;
+  const Field<int> key = key_, slot = slot_, start = rows_.start, id = id_;
+  const Field<double> x = x_, y = y_;
+  Kokkos::parallel_for("cellgrid::clear", Range(0, cell_count + 2), KOKKOS_LAMBDA(int c) { start(c) = 0; });
+  Kokkos::parallel_for("cellgrid::count", Range(0, n), KOKKOS_LAMBDA(int i) {
+        const int r = dimension == 2 ? rows.row_of(y(i)) : 0;
+        key(i) = id(i) < 0 ? cell_count : r * rows.bins + rows.bin_of(x(i));
+        slot(i) = Kokkos::atomic_fetch_add(&start(key(i)), 1);
+      });
+  Kokkos::parallel_scan("cellgrid::scan", Range(0, cell_count + 2), KOKKOS_LAMBDA(int c, int& sum, bool last) {
+        const int here = start(c);
+        if (last) start(c) = sum;
+        sum += here;
+      });
+}
+
+void RowOrder::place(const FieldSet& particles) {
+  const int n = particles.size(), cell_count = rows_.rows * rows_.bins;
+  reserve(order_, "cellgrid.order", n);
+  const Field<int> key = key_, slot = slot_, start = rows_.start, order = order_, id = id_;
+  Kokkos::parallel_for("cellgrid::place", Range(0, n), KOKKOS_LAMBDA(int i) { order(start(key(i)) + slot(i)) = i; });
+  Kokkos::parallel_for("cellgrid::settle", Range(0, cell_count), KOKKOS_LAMBDA(int c) {
+        const int first = start(c), in_bin = start(c + 1) - first;
+        if (in_bin > 1) sort_by_id(&order(first), in_bin, id.data());
+      });
+}
+
+void RowOrder::sort(FieldSet& particles) {
+  const Region region("cellgrid::sort");
+  x_ = particles.real("x");
+  y_ = dimension_ == 2 ? particles.real("y") : Field<double>();
+  id_ = particles.integer("id");
+  lay_grid(particles);
+  count_bins(particles);
+  place(particles);
+  int kept = 0;
+  Kokkos::deep_copy(kept, Kokkos::subview(rows_.start, rows_.rows * rows_.bins));
+  particles.permute(order_, kept);
+  particles.resize(kept);
+}
+
+void RowOrder::measure_reach(const FieldSet& particles, const Field<double>& h, double support_factor) {
+  double h_max = 0;
+  Kokkos::parallel_reduce("cellgrid::largest_h", Range(0, particles.size()),
+      KOKKOS_LAMBDA(int i, double& m) { m = larger(m, h(i)); }, Kokkos::Max<double>(h_max));
+  const double support = std::isfinite(h_max) ? std::max(support_factor * h_max, spacing_) : spacing_;
+  const auto covering = [&](double width, int n) {
+    return static_cast<int>(std::clamp(std::ceil(support / width), 1.0, static_cast<double>(n)));
+  };
+  rows_.tile_rows = covering(rows_.row_height, rows_.rows);
+  rows_.tile_bins = covering(rows_.bin_width, rows_.bins);
+  rows_.tiles_x = (rows_.bins - 1) / rows_.tile_bins + 1;
+  rows_.tiles_y = (rows_.rows - 1) / rows_.tile_rows + 1;
+  const int tiles = rows_.tiles_x * rows_.tiles_y;
+  reserve(tile_h_, "cellgrid.tile_h", tiles);
+  reserve(rows_.reach, "cellgrid.reach", tiles);
+  const Rows rows = rows_;
+  const Field<double> tile_h = tile_h_;
+  Kokkos::parallel_for("cellgrid::tile_h", Range(0, tiles), KOKKOS_LAMBDA(int t) {
+        const int ty = t / rows.tiles_x, tx = t % rows.tiles_x;
+        const int b0 = tx * rows.tile_bins, b1 = smaller(b0 + rows.tile_bins, rows.bins);
+        double m = 0;
+        for (int r = ty * rows.tile_rows; r < smaller((ty + 1) * rows.tile_rows, rows.rows); ++r)
+          for (int i = rows.start(r * rows.bins + b0); i < rows.start(r * rows.bins + b1); ++i) m = larger(m, h(i));
+        tile_h(t) = m;
+      });
+  Kokkos::parallel_for("cellgrid::reach", Range(0, tiles), KOKKOS_LAMBDA(int t) {
+        const int ty = t / rows.tiles_x, tx = t % rows.tiles_x;
+        double m = 0;
+        for (int y = larger(ty - 1, 0); y <= smaller(ty + 1, rows.tiles_y - 1); ++y)
+          for (int x = larger(tx - 1, 0); x <= smaller(tx + 1, rows.tiles_x - 1); ++x)
+            m = larger(m, tile_h(y * rows.tiles_x + x));
+        rows.reach(t) = m;
+      });
+}
+
+}  // namespace freshet

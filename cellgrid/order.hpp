@@ -1,0 +1,81 @@
+// Particles in the order of rows of about two spacings and, within a row, of thin bins along x: who is near whom is then a
+// few contiguous runs of indices. The order is a function of the positions and ids alone (row, bin, then id).
+#pragma once
+#include "cellgrid/fields.hpp"
+#include "cellgrid/pack.hpp"
+
+namespace freshet {
+
+// The sorted particles' rows and bins, as the device sees them.
+struct Rows {
+  double x0 = 0, y0 = 0;                // m, corner
+  double bin_width = 1, row_height = 1; // m
+  int rows = 0, bins = 0;               // rows, and bins in each
+  Field<int> start;                     // first particle of bin b of row r at [r * bins + b]; rows * bins + 1 entries
+
+  int tile_rows = 1, tile_bins = 1;     // a tile's size in rows and bins: at least the largest support
+  int tiles_x = 0, tiles_y = 0;
+  Field<double> reach;                  // m, largest h of a tile and its eight neighbours
+
+  KOKKOS_FORCEINLINE_FUNCTION int bin_of(double x) const { return cell(x - x0, bin_width, bins); }
+  KOKKOS_FORCEINLINE_FUNCTION int row_of(double y) const { return cell(y - y0, row_height, rows); }
+
+  // Clamped to the grid; a NaN lands in the last cell.
+  static KOKKOS_FORCEINLINE_FUNCTION int cell(double offset, double width, int n) {
+    const double c = offset / width;
+    return c < n - 1 ? (c > 0 ? static_cast<int>(c) : 0) : n - 1;
+  }
+
+  // Largest h [m] of the particles whose support can touch the box.
+  KOKKOS_INLINE_FUNCTION double largest_h(double xlo, double xhi, double ylo, double yhi) const {
+    double h = 0;
+    const int tx1 = bin_of(xhi) / tile_bins, ty1 = row_of(yhi) / tile_rows;
+    for (int ty = row_of(ylo) / tile_rows; ty <= ty1; ++ty)
+      for (int tx = bin_of(xlo) / tile_bins; tx <= tx1; ++tx) h = larger(h, reach(ty * tiles_x + tx));
+    return h;
+  }
+
+  // Calls run(begin, end) for the runs of particles that may lie within distance of the box.
+  template <class Run>
+  KOKKOS_INLINE_FUNCTION void for_each_run(double xlo, double xhi, double ylo, double yhi, double distance,
+                                           const Run& run) const {
+    const int last = row_of(yhi + distance);
+    for (int r = row_of(ylo - distance); r <= last; ++r) {
+      // Rows at the rim also hold what was clamped into them, so they count as reaching outwards.
+      const double below = r == rows - 1 ? 0 : ylo - (y0 + (r + 1) * row_height);
+      const double above = r == 0 ? 0 : y0 + r * row_height - yhi;
+      const double dy = larger(0.0, larger(below, above));
+      if (dy > distance) continue;
+      const double s = root(distance * distance - dy * dy);
+      run(start(r * bins + bin_of(xlo - s)), start(r * bins + bin_of(xhi + s) + 1));
+    }
+  }
+};
+
+class RowOrder {
+ public:
+  // spacing [m]: rows are 2 spacings high, bins half a spacing wide (wider where they would far outnumber the particles).
+  RowOrder(int dimension, double spacing);
+
+  // Sorts all carried fields; particles with id < 0 are dropped. Uses x, (y), id.
+  void sort(FieldSet& particles);
+
+  // Measures the local largest of the field h [m]; support_factor x h is a particle's reach.
+  void measure_reach(const FieldSet& particles, const Field<double>& h, double support_factor);
+
+  const Rows& rows() const { return rows_; }
+
+ private:
+  void lay_grid(const FieldSet& particles);
+  void count_bins(const FieldSet& particles);
+  void place(const FieldSet& particles);
+
+  int dimension_;
+  double spacing_;
+  Rows rows_;
+  Field<int> key_, slot_, order_;
+  Field<double> x_, y_, tile_h_;
+  Field<int> id_;
+};
+
+}  // namespace freshet

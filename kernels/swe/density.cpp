@@ -1,0 +1,218 @@
+#include "kernels/swe/density.hpp"
+
+namespace freshet::swe {
+namespace {
+
+constexpr int most_evaluations = 60;  // each changes rho by at most 2: enough to cross any range
+
+// sum_j m_j F (v_j - v_i) (x) (x_j - x_i), and its trace.
+template <class V, int D>
+struct Gradient;
+template <class V>
+struct Gradient<V, 1> {
+  V xx{0.0};
+  KOKKOS_FORCEINLINE_FUNCTION void add(const Vec<V, 1>& fd, const Vec<V, 1>& dv) { xx += fd.x * dv.x; }
+  KOKKOS_FORCEINLINE_FUNCTION V divergence() const { return xx; }
+};
+template <class V>
+struct Gradient<V, 2> {
+  V ux{0.0}, uy{0.0}, vx{0.0}, vy{0.0};
+  KOKKOS_FORCEINLINE_FUNCTION void add(const Vec<V, 2>& fd, const Vec<V, 2>& dv) {
+    ux += fd.x * dv.x;
+    uy += fd.y * dv.x;
+    vx += fd.x * dv.y;
+    vy += fd.y * dv.y;
+  }
+  KOKKOS_FORCEINLINE_FUNCTION V divergence() const { return ux + vy; }
+};
+
+KOKKOS_FORCEINLINE_FUNCTION void add_square(Sym<Lane, 1>& m, const Vec<Lane, 1>& fd, const Vec<Lane, 1>& d) { m.xx += fd.x * d.x; }
+KOKKOS_FORCEINLINE_FUNCTION void add_square(Sym<Lane, 2>& m, const Vec<Lane, 2>& fd, const Vec<Lane, 2>& d) {
+  m.xx += fd.x * d.x;
+  m.xy += fd.x * d.y;
+  m.yy += fd.y * d.y;
+}
+
+// Symmetric part of the L-normalised gradient B A^-1; zero where the neighbours do not span the plane.
+KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 1> symmetric_gradient(const Gradient<Lane, 1>& b, const Sym<Lane, 1>& a, Lane) {
+  return {b.xx / larger(a.xx, Lane(1e-300))};
+}
+KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 2> symmetric_gradient(const Gradient<Lane, 2>& b, const Sym<Lane, 2>& a, Lane shear) {
+  constexpr double least_spread = 0.15;  // det against (trace/2)^2: 1 isotropic, 0 collinear
+  const Lane det = a.xx * a.yy - a.xy * a.xy, half = 0.5 * trace(a);
+  const Lane usable = select(least_spread * half * half < det, Lane(1.0), Lane(0.0));
+  const Lane scale = usable / larger(det, Lane(1e-300));
+  return {scale * (b.ux * a.yy - b.uy * a.xy),
+          0.5 * shear * scale * (b.uy * a.xx - b.ux * a.xy + b.vx * a.yy - b.vy * a.xy),
+          scale * (b.vy * a.xx - b.vx * a.xy)};
+}
+
+template <int D>
+struct Sums {
+  Lane density{0.0};       // sum m W
+  Sym<Lane, D> spread;     // sum m F x_ji (x) x_ji, F = -W'/r; its trace is -sum m r W'
+  Gradient<Lane, D> slope;  // sum m F v_ji (x) x_ji
+  WallSums<Lane, D> wall;
+};
+
+// One pair: the density, its derivative and, where wanted, the velocity gradient, all from one 1/r.
+template <bool Gradients, int D>
+KOKKOS_FORCEINLINE_FUNCTION void add_pair(const Vec<Lane, D>& x_ji, const Vec<Lane, D>& v_ji, Lane m, Lane inv_h, Sums<D>& sum) {
+  const Lane r2 = dot(x_ji, x_ji) + 1e-300;
+  const Lane inv_r = rsqrt(r2);
+  const auto k = Kernel<D>::at(r2 * inv_r * inv_h);
+  sum.density += m * k.w;
+  const Vec<Lane, D> f_x = (-m * k.dw * inv_r) * x_ji;
+  add_square(sum.spread, f_x, x_ji);
+  if constexpr (Gradients) sum.slope.add(f_x, v_ji);
+}
+
+template <int D>
+struct SolveDensity {
+  ClusterSet clusters;
+  NeighbourView near;
+  WallView<D> walls;
+  Particles<D> p;
+  Field<int> kind;
+  DensityOptions options;
+
+  KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 1> spread(const Vec<double, 1>& a) const { return {Lane(a.x)}; }
+  KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 2> spread(const Vec<double, 2>& a) const { return {Lane(a.x), Lane(a.y)}; }
+
+  template <bool Gradients>
+  KOKKOS_INLINE_FUNCTION Sums<D> sum(int c, const Vec<Lane, D>& x, const Vec<Lane, D>& v, Lane m, Lane h0, Lane h) const {
+    Sums<D> s;
+    const Lane inv_h = 1.0 / h;
+    near.for_each(c, [&](int j) {
+      Vec<Lane, D> v_ji;
+      if constexpr (Gradients) v_ji = spread(at(p.v_pred, j)) - v;
+      add_pair<Gradients>(spread(at(p.x, j)) - x, v_ji, Lane(p.m(j)), inv_h, s);
+    });
+    const Lane per_volume = power<D>(inv_h);
+    s.density *= per_volume;
+    if (walls.on) add_walls(c, x, v, D == 1 ? m : m * h0 * inv_h, inv_h, s.wall);
+    return s;
+  }
+
+  KOKKOS_INLINE_FUNCTION void add_walls(int c, const Vec<Lane, D>& x, const Vec<Lane, D>& v, Lane mass, Lane inv_h,
+                                        WallSums<Lane, D>& s) const {
+    walls.near.for_each(c, [&](int k) {
+      const Vec<Lane, D> normal_velocity = broadcast(walls.projector, k) * v;
+      add_wall<Kernel<D>>(x - spread(at(walls.x, k)), normal_velocity, inv_h, mass, s);
+    });
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 1> broadcast(const SymField<double, 1>& f, int k) const { return {Lane(f.xx(k))}; }
+  KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 2> broadcast(const SymField<double, 2>& f, int k) const {
+    return {Lane(f.xx(k)), Lane(f.xy(k)), Lane(f.yy(k))};
+  }
+
+  // 1 for particles whose state is imposed.
+  KOKKOS_INLINE_FUNCTION Lane imposed_lanes(const Lanes& me) const {
+    Lane value(0.0);
+    if (options.imposed)
+      for (int l = 0; l < lanes; ++l) set_lane(value, l, kind(me.particle(l)) != 0 ? 1.0 : 0.0);
+    return value;
+  }
+  static KOKKOS_FORCEINLINE_FUNCTION void set_lane(double& value, int, double x) { value = x; }
+#ifndef FRESHET_SCALAR
+  template <class P>
+  static KOKKOS_FORCEINLINE_FUNCTION void set_lane(P& value, int lane, double x) {
+    value.set(lane, x);
+  }
+#endif
+
+  // Newton on psi = rho - sum m W(h(rho)) (2.8)-(2.10), its factor held within [1/2, 2]. Where h is at a bound it does not
+  // follow rho: alpha = 1 and the root is the sum itself. "Bounded" is decided here, once, by the last evaluation.
+  template <bool Gradients>
+  KOKKOS_INLINE_FUNCTION void solve(int c, double& evaluations, int& most, int& outgrown, int& capped, int& floored) const {
+    const Lanes me = clusters(c);
+    const Vec<Lane, D> x = me.load(p.x), v = me.load(p.v_pred);
+    const Lane m = me.load(p.m), kh = me.load(p.kh), h0 = me.load(p.h0), listed = me.load(p.h);
+    const Lane low = options.bounds.floor * h0, high = options.bounds.cap * h0;
+    const Lane imposed = imposed_lanes(me), free = 1.0 - imposed;
+    const Lane longest_listed = (1.0 + options.margin) * listed;
+    Lane rho = me.load(p.rho), h = clamp(smoothing_length<D>(kh, rho), low, smaller(high, longest_listed));
+    const Lane imposed_rho = rho;
+    Sums<D> s = sum<Gradients>(c, x, v, m, h0, h);
+    const Sums<D> first = s;  // the gradient and the rate need no more than the predicted h
+    Lane alpha, bounded;
+    int n = 1;
+    for (;; ++n) {
+      const Lane total = s.density + s.wall.density;
+      const Lane moment = trace(s.spread) * power<D>(1.0 / h) / h + s.wall.moment;
+      const Lane wanted = smoothing_length<D>(kh, rho);
+      bounded = select((wanted < low) | (high < wanted), Lane(1.0), Lane(0.0));
+      alpha = moment / (rho * double(D));
+      const Lane slope = rho - total + rho * alpha;
+      const Lane newton = select(Lane(0.0) < slope, rho * alpha / larger(slope, 1e-300 + Lane(0.0)), Lane(2.0));
+      const Lane factor = select(Lane(0.5) < bounded, total / rho, newton);
+      const Lane residual = free * larger(rho - total, total - rho) / rho;
+      rho = select(Lane(0.5) < imposed, imposed_rho, rho * clamp(factor, Lane(0.5), Lane(2.0)));
+      if (!any(Lane(options.tolerance) < residual) || n == most_evaluations) break;
+      h = clamp(smoothing_length<D>(kh, rho), low, smaller(high, longest_listed));
+      s = sum<false>(c, x, v, m, h0, h);
+    }
+    const Lane wanted = clamp(smoothing_length<D>(kh, rho), low, high);
+    h = select(Lane(0.5) < imposed, smoothing_length<D>(kh, rho), wanted);
+    alpha = select(Lane(0.5) < larger(bounded, imposed), Lane(1.0), alpha);
+    write(me, {rho, h, alpha, imposed}, first, m);
+    evaluations += n;
+    most = larger(most, n);
+    for (int l = 0; l < me.count; ++l) {
+      const bool at_bound = lane_of(bounded, l) > 0.5 && lane_of(imposed, l) < 0.5;
+      outgrown += lane_of(h, l) > lane_of(longest_listed, l);
+      capped += at_bound && lane_of(h, l) > lane_of(h0, l);
+      floored += at_bound && lane_of(h, l) < lane_of(h0, l);
+    }
+  }
+  static KOKKOS_FORCEINLINE_FUNCTION double lane_of(double value, int) { return value; }
+#ifndef FRESHET_SCALAR
+  template <class P>
+  static KOKKOS_FORCEINLINE_FUNCTION double lane_of(const P& value, int lane) {
+    return value[lane];
+  }
+#endif
+
+  struct State {
+    Lane rho, h, alpha, imposed;
+  };
+
+  KOKKOS_INLINE_FUNCTION void write(const Lanes& me, const State& state, const Sums<D>& s, Lane m) const {
+    const Lane inv_h = 1.0 / state.h, per_volume = power<D>(inv_h);
+    const Lane free = 1.0 - state.imposed;
+    me.store(p.rho, state.rho);
+    me.store(p.h, state.h);
+    me.store(p.inv_h, inv_h);
+    me.store(p.pressure, 0.5 * options.gravity / state.alpha);
+    me.store(p.celerity, root(options.gravity * state.rho));
+    me.store(p.weight, m * per_volume * inv_h);
+    me.store(p.rate, -free * (s.slope.divergence() * per_volume * inv_h + s.wall.approach) / state.alpha);
+    if (options.gradient) me.store(p.strain, symmetric_gradient(s.slope, s.spread, free));
+  }
+
+  KOKKOS_INLINE_FUNCTION void operator()(int c, double& evaluations, int& most, int& outgrown, int& capped,
+                                         int& floored) const {
+    solve<true>(c, evaluations, most, outgrown, capped, floored);
+  }
+};
+
+}  // namespace
+
+template <int D>
+DensityReport solve_density(const ClusterSet& clusters, const NeighbourView& near, const WallView<D>& walls,
+                            const Particles<D>& p, const Field<int>& kind, const DensityOptions& options) {
+  DensityReport report;
+  double evaluations = 0;
+  Kokkos::parallel_reduce("swe::density", Range(0, clusters.size()),
+                          SolveDensity<D>{clusters, near, walls, p, kind, options}, evaluations,
+                          Kokkos::Max<int>(report.newton_max), report.outgrown, report.capped, report.floored);
+  report.newton_mean = clusters.size() > 0 ? evaluations / clusters.size() : 0;
+  return report;
+}
+
+template DensityReport solve_density<1>(const ClusterSet&, const NeighbourView&, const WallView<1>&, const Particles<1>&,
+                                        const Field<int>&, const DensityOptions&);
+template DensityReport solve_density<2>(const ClusterSet&, const NeighbourView&, const WallView<2>&, const Particles<2>&,
+                                        const Field<int>&, const DensityOptions&);
+
+}  // namespace freshet::swe

@@ -1,0 +1,30 @@
+// Density by the variable-h summation (Vacondio 2010, (2.4)-(2.12); errata: SWE-FORMULAS section 1) fused with alpha (2.32),
+// d rho/dt (2.34) and the least-squares gradient of v.
+#pragma once
+#include "kernels/swe/particles.hpp"
+#include "kernels/walls.hpp"
+
+namespace freshet::swe {
+
+struct DensityOptions {
+  double gravity;       // m/s2
+  double tolerance;     // of |rho - sum m W| / rho
+  double margin;        // growth of h that the neighbour list still covers
+  LengthBounds bounds;  // of h
+  bool gradient;        // the stabilisation reconstructs velocities
+  bool imposed;         // some particles (kind != 0) carry an imposed state
+};
+
+struct DensityReport {
+  double newton_mean = 0;  // evaluations per cluster
+  int newton_max = 0;
+  int outgrown = 0;         // particles whose h outgrew the list: the list must be made again with the h found
+  int capped = 0, floored = 0;
+};
+
+// Reads x, v_pred, m, kh, h0, rho (predicted), h (of the list); writes rho, h, inv_h, pressure, celerity, weight, rate, strain.
+template <int D>
+DensityReport solve_density(const ClusterSet& clusters, const NeighbourView& near, const WallView<D>& walls,
+                            const Particles<D>& p, const Field<int>& kind, const DensityOptions& options);
+
+}  // namespace freshet::swe

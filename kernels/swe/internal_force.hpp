@@ -1,0 +1,15 @@
+// Pressure force of the variational SPH-SWE scheme with stabilisation (SWE-FORMULAS 2.1 and 6, for (2.21), (2.52)):
+// t_i = sum_j m_j { [g/(2 alpha_i) + Pi/2] G_ij(h_i) + [g/(2 alpha_j) + Pi/2] G_ij(h_j) }, G = W' x_ij / r, rho_w = 1.
+#pragma once
+#include "kernels/swe/particles.hpp"
+#include "kernels/swe/stabilisation.hpp"
+#include "kernels/walls.hpp"
+
+namespace freshet::swe {
+
+// Reads x, v_pred, m, h0, rho, inv_h, pressure, celerity, weight, strain; writes t and signal.
+template <int D>
+void internal_force(const ClusterSet& clusters, const NeighbourView& near, const WallView<D>& walls, const Particles<D>& p,
+                    const AnyStabilisation& stabilisation);
+
+}  // namespace freshet::swe

@@ -1,0 +1,174 @@
+#include "kernels/walls.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace freshet {
+namespace {
+
+using Line = std::vector<std::array<double, 2>>;
+
+struct WallPoint {
+  double x[2];
+  double p[3];  // projector xx, xy, yy
+};
+
+WallSegment segment_between(const std::array<double, 2>& a, const std::array<double, 2>& b) {
+  WallSegment s{{a[0], a[1]}, {b[0], b[1]}, {}, {}, std::hypot(b[0] - a[0], b[1] - a[1])};
+  for (int k = 0; k < 2; ++k) s.tangent[k] = (s.b[k] - s.a[k]) / s.length;
+  s.normal[0] = -s.tangent[1];
+  s.normal[1] = s.tangent[0];
+  return s;
+}
+
+// Projector of a point between two segments: the eigenvalues of n1 n1^T + n2 n2^T cut at one, so that it turns from
+// n n^T (straight wall) to the identity (right corner: the image through it moves exactly opposite).
+WallPoint corner_point(const double* x, const WallSegment& s, const WallSegment& t) {
+  const double bx = s.normal[0] + t.normal[0], by = s.normal[1] + t.normal[1], length = std::hypot(bx, by);
+  if (length < 1e-9) return {{x[0], x[1]}, {1, 0, 1}};
+  const double nx = bx / length, ny = by / length;
+  const double cosine = s.normal[0] * t.normal[0] + s.normal[1] * t.normal[1];
+  const double across = std::fmin(1.0, 1 + cosine), along = std::fmin(1.0, 1 - cosine);
+  return {{x[0], x[1]},
+          {across * nx * nx + along * ny * ny, (across - along) * nx * ny, across * ny * ny + along * nx * nx}};
+}
+
+WallPoint face_point(const WallSegment& s, double along) {
+  const double *n = s.normal, *e = s.tangent;
+  return {{s.a[0] + along * e[0], s.a[1] + along * e[1]}, {n[0] * n[0], n[0] * n[1], n[1] * n[1]}};
+}
+
+bool same(const double* a, const double* b, double tolerance) { return std::hypot(a[0] - b[0], a[1] - b[1]) < tolerance; }
+
+// The two extra points of a corner of at most 180 degrees: each wall goes on by half a spacing.
+void extend_corner(const WallSegment& s, const WallSegment& t, double step, std::vector<WallPoint>& points) {
+  const double turn = s.tangent[0] * t.tangent[1] - s.tangent[1] * t.tangent[0];
+  if (turn <= 1e-9) return;
+  points.push_back(face_point(s, s.length + step));
+  points.push_back(face_point(t, -step));
+}
+
+void sample_chain(const std::vector<WallSegment>& chain, bool closed, double spacing, std::vector<WallPoint>& points) {
+  const size_t n = chain.size();
+  for (size_t k = 0; k < n; ++k) {
+    const WallSegment& s = chain[k];
+    const int steps = std::max(1, static_cast<int>(std::lround(2 * s.length / spacing)));
+    for (int i = 1; i < steps; ++i) points.push_back(face_point(s, s.length * i / steps));
+    if (k + 1 < n || closed) {
+      const WallSegment& next = chain[(k + 1) % n];
+      points.push_back(corner_point(s.b, s, next));
+      extend_corner(s, next, s.length / steps, points);
+    } else {
+      points.push_back(face_point(s, s.length));
+    }
+    if (k == 0 && !closed) points.push_back(face_point(s, 0));
+  }
+}
+
+struct Geometry {
+  std::vector<WallPoint> points;
+  std::vector<WallSegment> segments;
+};
+
+Geometry lay_lines(const std::vector<Line>& lines, double spacing) {
+  Geometry g;
+  for (const Line& line : lines) {
+    std::vector<WallSegment> chain;
+    for (size_t k = 0; k + 1 < line.size(); ++k) chain.push_back(segment_between(line[k], line[k + 1]));
+    const bool closed = line.size() > 2 && same(line.front().data(), line.back().data(), 1e-6 * spacing);
+    sample_chain(chain, closed, spacing, g.points);
+    g.segments.insert(g.segments.end(), chain.begin(), chain.end());
+  }
+  return g;
+}
+
+Geometry lay_ends(const std::vector<Line>& lines, double inside) {
+  Geometry g;
+  for (const Line& line : lines) {
+    const double x = line.front()[0], side = inside > x ? 1.0 : -1.0;
+    g.points.push_back({{x, 0}, {1, 0, 0}});
+    g.segments.push_back({{x, 0}, {x, 0}, {0, 0}, {side, 0}, 0});
+  }
+  return g;
+}
+
+template <class F>
+void fill(const Field<double>& field, const std::vector<WallPoint>& points, const F& value) {
+  auto host = Kokkos::create_mirror_view(field);
+  for (size_t k = 0; k < points.size(); ++k) host(k) = value(points[k]);
+  Kokkos::deep_copy(field, host);
+}
+
+}  // namespace
+
+template <int D>
+Walls<D>::Walls(const std::vector<Line>& lines, double spacing, const std::array<double, 2>& inside)
+    : order_(D, spacing), near_(32), depth_(2 * spacing) {
+  const Geometry g = D == 1 ? lay_ends(lines, inside[0]) : lay_lines(lines, spacing);
+  points_ = FieldSet(static_cast<int>(g.points.size()));
+  const auto add = [&](const char* name, const auto& value) { fill(points_.real(name, "m", Carry::sort), g.points, value); };
+  add("x", [](const WallPoint& w) { return w.x[0]; });
+  add("pxx", [](const WallPoint& w) { return w.p[0]; });
+  if (D == 2) {
+    add("y", [](const WallPoint& w) { return w.x[1]; });
+    add("pxy", [](const WallPoint& w) { return w.p[1]; });
+    add("pyy", [](const WallPoint& w) { return w.p[2]; });
+  }
+  const Field<int> id = points_.integer("id", "1", Carry::sort);
+  Kokkos::parallel_for("walls::number", Range(0, points_.size()), KOKKOS_LAMBDA(int k) { id(k) = k; });
+  order_.sort(points_);
+  order_.measure_reach(points_, points_.real("h", "m"), 1.0);
+  segments_ = Kokkos::View<WallSegment*, Memory>("walls.segments", g.segments.size());
+  auto host = Kokkos::create_mirror_view(segments_);
+  for (size_t k = 0; k < g.segments.size(); ++k) host(k) = g.segments[k];
+  Kokkos::deep_copy(segments_, host);
+}
+
+template <int D>
+WallView<D> Walls<D>::view() const {
+  FieldSet points = points_;
+  if constexpr (D == 1)
+    return {true, {points.real("x")}, {points.real("pxx")}, near_.view()};
+  else
+    return {true, {points.real("x"), points.real("y")}, {points.real("pxx"), points.real("pxy"), points.real("pyy")}, near_.view()};
+}
+
+template <int D>
+void Walls<D>::find(const ClusterSet& clusters, const VecField<double, D>& x, const Field<double>& h, double margin) {
+  near_.build<D>(clusters, {x, h, order_.rows(), view().x, points_.real("h"), 1.0, margin});
+}
+
+template <int D>
+void Walls<D>::reflect(const VecField<double, D>& x, const VecField<double, D>& v, const VecField<double, D>& v_pred,
+                       int n) const {
+  const auto segments = segments_;
+  const int count = segments.extent_int(0);
+  const double deepest = depth_;
+  Kokkos::parallel_for("walls::reflect", Range(0, n), KOKKOS_LAMBDA(int i) {
+        for (int k = 0; k < count; ++k) {
+          const WallSegment s = segments(k);
+          Vec<double, D> p = at(x, i), normal, from_a;
+          normal.x = s.normal[0];
+          from_a.x = p.x - s.a[0];
+          double along = 0;
+          if constexpr (D == 2) {
+            normal.y = s.normal[1];
+            from_a.y = p.y - s.a[1];
+            along = from_a.x * s.tangent[0] + from_a.y * s.tangent[1];
+          }
+          const double inside = dot(from_a, normal);
+          if (inside >= 0 || inside < -deepest || along < 0 || along > s.length) continue;
+          put(x, i, p + (-2.0 * inside) * normal);
+          for (const VecField<double, D>& velocity : {v, v_pred}) {
+            const Vec<double, D> w = at(velocity, i);
+            const double outward = smaller(dot(w, normal), 0.0);
+            put(velocity, i, w + (-2.0 * outward) * normal);
+          }
+        }
+      });
+}
+
+template class Walls<1>;
+template class Walls<2>;
+
+}  // namespace freshet

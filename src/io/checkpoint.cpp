@@ -1,0 +1,110 @@
+#include "src/io/checkpoint.hpp"
+
+#include <filesystem>
+
+#include "src/errors.hpp"
+#include "src/io/files.hpp"
+#include "src/io/hdf5.hpp"
+
+namespace freshet {
+namespace {
+
+constexpr double format = 1;
+constexpr std::uint64_t metadata_bytes = 128 * 1024;
+
+std::uint64_t bytes_of(const FieldSet& fields) {
+  const auto each = fields.reals().size() * sizeof(double) + fields.integers().size() * sizeof(int);
+  return each * static_cast<std::uint64_t>(fields.size()) + metadata_bytes;
+}
+
+template <class T>
+void write_fields(const hdf5::Group& group, const std::vector<NamedField<T>>& fields, int size) {
+  for (const auto& field : fields) {
+    if (field.carry != Carry::state) continue;
+    const auto data = on_host(field.data);
+    group.write(field.name, std::vector<T>(data.data(), data.data() + size));
+    group.attribute("unit", field.unit, field.name);
+  }
+}
+
+void write_values(const hdf5::Group& group, const Values& values) {
+  for (const auto& [name, value] : values) group.write(name, value);
+}
+
+Values read_values(const hdf5::Group& group) {
+  Values values;
+  for (const auto& name : group.names()) values[name] = group.reals(name);
+  return values;
+}
+
+template <class T>
+void fill(const Field<T>& field, const std::vector<T>& values) {
+  const auto mirror = on_host(field);
+  for (std::size_t i = 0; i < values.size(); ++i) mirror(i) = values[i];
+  Kokkos::deep_copy(field, mirror);
+}
+
+template <class T>
+void require_fields(const hdf5::Group& group, const std::vector<NamedField<T>>& fields, const std::string& path) {
+  for (const auto& field : fields) {
+    if (field.carry == Carry::state && !group.has(field.name)) {
+      throw IoError(path + ": holds no field " + field.name +
+                    "\n  help: another version of the program wrote it; start the run anew");
+    }
+  }
+}
+
+void write_all(const std::string& path, const Checkpoint& checkpoint, const FieldSet& fields) {
+  auto file = hdf5::File::make(path);
+  {
+    file.attribute("format", format);
+    file.attribute("particles", fields.size());
+    file.write("scene_file", checkpoint.scene_file);
+    file.write("scene", checkpoint.scene_text);
+    write_values(file.create("run"), checkpoint.run);
+    write_values(file.create("method"), checkpoint.method);
+    write_fields(file.create("reals"), fields.reals(), fields.size());
+    write_fields(file.create("integers"), fields.integers(), fields.size());
+  }
+  file.close();
+}
+
+}  // namespace
+
+void write_checkpoint(const std::string& path, const Checkpoint& checkpoint, const FieldSet& fields) {
+  const auto parent = std::filesystem::path(path).parent_path();
+  const std::string temporary = path + ".new";
+  require_space(parent.empty() ? "." : parent.string(), bytes_of(fields) + checkpoint.scene_text.size());
+  try {
+    write_all(temporary, checkpoint, fields);
+    replace_file(temporary, path);
+  } catch (const IoError&) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    throw;
+  }
+}
+
+Checkpoint read_checkpoint(const std::string& path) {
+  const auto file = hdf5::File::look(path);
+  if (file.real_attribute("format") != format) {
+    throw IoError(path + ": another version of the program wrote it; start the run anew");
+  }
+  return {file.text("scene_file"), file.text("scene"), read_values(file.open("run")), read_values(file.open("method"))};
+}
+
+void read_checkpoint_fields(const std::string& path, FieldSet& fields) {
+  const auto file = hdf5::File::look(path);
+  const auto reals = file.open("reals"), integers = file.open("integers");
+  require_fields(reals, fields.reals(), path);
+  require_fields(integers, fields.integers(), path);
+  fields.resize(static_cast<int>(file.real_attribute("particles")));
+  for (const auto& name : reals.names()) {
+    fill(fields.real(name, reals.text_attribute("unit", name), Carry::state), reals.reals(name));
+  }
+  for (const auto& name : integers.names()) {
+    fill(fields.integer(name, integers.text_attribute("unit", name), Carry::state), integers.integers(name));
+  }
+}
+
+}  // namespace freshet

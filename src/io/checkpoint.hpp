@@ -1,0 +1,28 @@
+// state.h5: everything a run needs to go on, in double precision to the bit. Written beside its name, brought to the
+// disk and then renamed, so that the last good one outlives a full disk or a crash. Failures are IoError.
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "cellgrid/fields.hpp"
+
+namespace freshet {
+
+using Values = std::map<std::string, std::vector<double>>;
+
+struct Checkpoint {
+  std::string scene_file;  // absolute path: the scene's data files are relative to it
+  std::string scene_text;  // overrides applied
+  Values run;              // clock, counters, gauge state, run-up maxima, mass at the start
+  Values method;           // Method::scalars()
+};
+
+// All fields with Carry::state go to /fields with their unit.
+void write_checkpoint(const std::string& path, const Checkpoint& checkpoint, const FieldSet& fields);
+
+Checkpoint read_checkpoint(const std::string& path);
+// Sets the particle count and every stored field; throws if a state field of `fields` is not in the file.
+void read_checkpoint_fields(const std::string& path, FieldSet& fields);
+
+}  // namespace freshet

@@ -1,0 +1,20 @@
+// Files and directories with the failures spelled out: what, path, reason, remedy (IoError).
+#pragma once
+#include <cstdint>
+#include <string>
+
+namespace freshet {
+
+// Makes the directory and its parents where they are missing.
+void make_directory(const std::string& directory);
+// Throws unless the file system of this directory has room for so many bytes: a file that is cut short in the middle
+// of an output could lose the earlier ones, so it is better not to begin.
+void require_space(const std::string& directory, std::uint64_t bytes);
+// Waits until the file's data are on the disk.
+void sync_file(const std::string& path);
+// Puts the finished file `temporary` in the place of `path`, so that a reader or a crash sees the old or the new one.
+void replace_file(const std::string& temporary, const std::string& path);
+void write_text(const std::string& path, const std::string& text);  // through a temporary file
+std::string read_text(const std::string& path);
+
+}  // namespace freshet

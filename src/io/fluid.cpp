@@ -1,0 +1,54 @@
+#include "src/io/fluid.hpp"
+
+namespace freshet {
+namespace {
+
+template <class T>
+const NamedField<T>* find(const std::vector<NamedField<T>>& fields, const std::string& name) {
+  for (const auto& field : fields) {
+    if (field.name == name) return &field;
+  }
+  return nullptr;
+}
+
+std::vector<int> fluid_indices(const FieldSet& fields) {
+  std::vector<int> indices;
+  indices.reserve(static_cast<std::size_t>(fields.size()));
+  const auto* kind = find_integer(fields, "kind");
+  decltype(on_host(Field<int>())) kinds;
+  if (kind) kinds = on_host(kind->data);
+  for (int i = 0; i < fields.size(); ++i) {
+    if (!kind || kinds(i) == 0) indices.push_back(i);
+  }
+  return indices;
+}
+
+template <class T>
+std::vector<T> gather(const NamedField<T>* field, const std::vector<int>& indices) {
+  std::vector<T> values(indices.size(), T(0));
+  if (!field) return values;
+  const auto data = on_host(field->data);
+  for (std::size_t k = 0; k < indices.size(); ++k) values[k] = data(indices[k]);
+  return values;
+}
+
+}  // namespace
+
+const NamedField<double>* find_real(const FieldSet& fields, const std::string& name) {
+  return find(fields.reals(), name);
+}
+
+const NamedField<int>* find_integer(const FieldSet& fields, const std::string& name) {
+  return find(fields.integers(), name);
+}
+
+Fluid fluid_on_host(const FieldSet& fields) {
+  const auto indices = fluid_indices(fields);
+  const auto real = [&](const char* name) { return gather(find_real(fields, name), indices); };
+  return {real("x"),   real("y"),    real("u"), real("v"), real("depth"),
+          real("bed"), real("mass"), real("h"), gather(find_integer(fields, "id"), indices)};
+}
+
+int fluid_count(const FieldSet& fields) { return static_cast<int>(fluid_indices(fields).size()); }
+
+}  // namespace freshet

@@ -1,0 +1,127 @@
+#include "src/run/commands.hpp"
+
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "cellgrid/types.hpp"
+#include "src/errors.hpp"
+#include "src/io/files.hpp"
+#include "src/run/driver.hpp"
+#include "src/run/signals.hpp"
+
+namespace freshet {
+namespace fs = std::filesystem;
+namespace {
+
+const std::vector<std::string> result_files{"particles.h5part", "gauges.csv",  "measured.csv",
+                                            "summary.json",     "state.h5",    "diverged.h5"};
+
+std::string inside(const std::string& directory, const std::string& name) { return (fs::path(directory) / name).string(); }
+
+std::vector<std::string> results_in(const std::string& directory) {
+  std::vector<std::string> found;
+  for (const auto& name : result_files) {
+    if (fs::exists(inside(directory, name))) found.push_back(name);
+  }
+  return found;
+}
+
+std::string joined(const std::vector<std::string>& words, const char* between) {
+  std::string text;
+  for (const auto& word : words) text += (text.empty() ? "" : between) + word;
+  return text;
+}
+
+void prepare_directory(const std::string& directory, bool overwrite) {
+  const auto held = results_in(directory);
+  if (!held.empty() && !overwrite) {
+    throw SceneError(directory + " holds results (" + joined(held, ", ") +
+                     ")\n  help: --overwrite replaces them, --out DIR writes elsewhere" +
+                     (fs::exists(inside(directory, "state.h5")) ? ", 'resume' goes on with them" : ""));
+  }
+  make_directory(directory);
+  for (const auto& name : held) fs::remove(inside(directory, name));
+}
+
+std::string shell_word(const std::string& path) {
+  return path.find_first_of(" '\"$&;()") == std::string::npos ? path : "'" + path + "'";
+}
+
+RunOptions options_for(const std::string& directory, bool quiet) {
+  return {directory, quiet ? nullptr : stdout, isatty(STDOUT_FILENO) != 0, &stop_requested};
+}
+
+int finish(Driver& driver, const std::string& directory, bool quiet) {
+  const SignalGuard guard;
+  if (!driver.run()) {
+    std::printf("stopped at t = %.6g s, step %ld; go on with:\n  %s resume %s\n", driver.clock().t, driver.clock().step,
+                shell_word(program_name).c_str(), shell_word(directory).c_str());
+    return static_cast<int>(Exit::interrupted);
+  }
+  const Summary summary = driver.summary();
+  write_text(inside(directory, "summary.json"), json(summary));
+  if (quiet) return 0;
+  print_tables(stdout, summary);
+  std::printf("results: %s\n", directory.c_str());
+  return 0;
+}
+
+void announce(const Scene& scene, const Method& method) {
+  std::printf("%s: %s, %d particles, to t = %g s, %d thread%s (%s)\n  %s\n", scene.name.c_str(), method.name().c_str(),
+              method.fields().size(), scene.end_time, thread_count(), thread_count() == 1 ? "" : "s", backend_name(),
+              joined(method.features(), ", ").c_str());
+}
+
+std::string one_word(const Arguments& arguments, const std::string& usage) {
+  if (arguments.words.size() == 1) return arguments.words[0];
+  throw SceneError((arguments.words.empty() ? "too few words; usage: freshet " :
+                    "'" + arguments.words[1] + "' is one word too many; usage: freshet ") + usage);
+}
+
+}  // namespace
+
+std::unique_ptr<Runtime> start_kokkos(int threads) {
+  return Kokkos::is_initialized() ? nullptr : std::make_unique<Runtime>(threads);
+}
+
+int run_command(const Arguments& arguments, const Parts& parts) {
+  const std::string word = one_word(arguments, "run SCENE [key=value ...] [--out DIR] [--threads N] [--overwrite] [--quiet]");
+  const Scene scene = parts.read(find_scene(word), arguments.overrides);
+  const bool quiet = arguments.has("--quiet");
+  const std::string directory = arguments.value("--out", "out/" + scene.name);
+  prepare_directory(directory, arguments.has("--overwrite"));
+  const auto runtime = start_kokkos(arguments.number("--threads", 0, 1));
+  const auto method = parts.make(scene);
+  if (!quiet) announce(scene, *method);
+  Driver driver(scene, *method, options_for(directory, quiet));
+  driver.begin();
+  return finish(driver, directory, quiet);
+}
+
+int resume_command(const Arguments& arguments, const Parts& parts) {
+  const std::string directory = one_word(arguments, "resume DIR [--threads N] [--quiet]");
+  const std::string state = inside(directory, "state.h5");
+  if (!fs::exists(state)) {
+    throw SceneError(directory + " holds no state.h5 to go on with" +
+                     "\n  help: it is written every output.checkpoint_every seconds, on Ctrl-C and at the end of a run");
+  }
+  const Checkpoint checkpoint = read_checkpoint(state);
+  const Scene scene = parts.read_again(checkpoint.scene_text, checkpoint.scene_file);
+  const bool quiet = arguments.has("--quiet");
+  const double t = checkpoint.run.at("clock").at(0);
+  if (t >= scene.end_time && fs::exists(inside(directory, "summary.json"))) {
+    if (!quiet) std::printf("the run in %s is complete: t = %g s\n", directory.c_str(), t);
+    return 0;
+  }
+  const auto runtime = start_kokkos(arguments.number("--threads", 0, 1));
+  const auto method = parts.make(scene);
+  read_checkpoint_fields(state, method->fields());
+  method->restore(checkpoint.method);
+  if (!quiet) announce(scene, *method);
+  Driver driver(scene, *method, options_for(directory, quiet));
+  driver.restore(checkpoint);
+  return finish(driver, directory, quiet);
+}
+
+}  // namespace freshet

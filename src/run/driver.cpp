@@ -1,0 +1,216 @@
+#include "src/run/driver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "cellgrid/runtime.hpp"
+#include "src/errors.hpp"
+#include "src/io/files.hpp"
+#include "src/io/fluid.hpp"
+#include "src/run/build.hpp"
+#include "src/run/compare.hpp"
+#include "src/run/gauge_stats.hpp"
+
+namespace freshet {
+namespace {
+
+std::string inside(const std::string& directory, const char* name) {
+  return (std::filesystem::path(directory) / name).string();
+}
+
+bool finished(const Clock& clock, const Scene& scene) { return clock.t >= scene.end_time; }
+
+}  // namespace
+
+Driver::Driver(const Scene& scene, Method& method, RunOptions options)
+    : scene_(scene),
+      method_(method),
+      options_(std::move(options)),
+      events_(scene),
+      monitor_(scene),
+      gauges_(scene, inside(options_.directory, "gauges.csv")),
+      run_ups_(scene.run_ups),
+      particles_(inside(options_.directory, "particles.h5part")),
+      progress_(options_.progress, options_.terminal, 0, scene.end_time) {}
+
+void Driver::begin() {
+  initial_particles_ = fluid_count(method_.fields());
+  monitor_.start(method_.totals().mass);
+  particles_.create(scene_.text, build::version);
+  gauges_.begin(method_);
+  run_ups_.record(method_);
+}
+
+bool Driver::run() {
+  try {
+    fire_events();  // those at t = 0; after a resume none is due
+    while (!finished(clock_, scene_)) {
+      if (options_.stop && *options_.stop) break;
+      step();
+      monitor_.check(method_, clock_);
+      gauges_.record(method_, clock_.t);
+      run_ups_.record(method_);
+      fire_events();
+      if (progress_.due(clock_.t)) show_progress();
+    }
+    monitor_.check_all(method_, clock_);
+  } catch (const Diverged& why) {
+    give_up(why);
+  }
+  write_state("state.h5");
+  progress_.end_line();
+  return finished(clock_, scene_);
+}
+
+void Driver::step() {
+  const double stable = method_.stable_dt();
+  monitor_.check_dt(stable, clock_);
+  const Stride stride = events_.shorten(clock_, stable);
+  gauges_.watch(method_, clock_.t, stride.until);
+  method_.step(clock_.t, stride.dt);
+  clock_ = {stride.until, clock_.step + 1};
+  dt_ = stride.dt;
+  progress_.count(method_.fields().size());
+}
+
+void Driver::fire_events() {
+  for (; events_.comparisons.due(clock_.t); events_.comparisons.advance()) {
+    l1_samples_.push_back(depth_l1(scene_, fluid_on_host(method_.fields()), clock_.t));
+  }
+  if (events_.outputs.due(clock_.t)) {
+    monitor_.check_all(method_, clock_);
+    write_particles();
+  }
+  const bool periodic = scene_.output.checkpoint_every > 0 && !finished(clock_, scene_);
+  if (periodic && progress_.elapsed() - last_checkpoint_ >= scene_.output.checkpoint_every) write_state("state.h5");
+}
+
+void Driver::write_particles() {
+  particles_.append(static_cast<int>(events_.outputs.done()), clock_.t, method_.fields());
+  events_.outputs.advance();
+}
+
+// The other files first: a checkpoint must not count rows that are not on the disk yet.
+void Driver::write_state(const std::string& name) {
+  if (!scene_.gauges.empty()) sync_file(inside(options_.directory, "gauges.csv"));
+  sync_file(inside(options_.directory, "particles.h5part"));
+  const std::string scene_file = scene_.file.empty() ? "" : std::filesystem::absolute(scene_.file).string();
+  write_checkpoint(inside(options_.directory, name.c_str()),
+                   {scene_file, scene_.text, run_values(), method_.scalars()}, method_.fields());
+  last_checkpoint_ = progress_.elapsed();
+}
+
+void Driver::give_up(const Diverged& why) {
+  progress_.end_line();
+  std::string text = why.what();
+  try {
+    particles_.append(static_cast<int>(events_.outputs.done()), clock_.t, method_.fields());
+    write_state("diverged.h5");
+    text += "\n  its state: " + inside(options_.directory, "diverged.h5") + ", and the last step of particles.h5part";
+  } catch (const IoError& also) {
+    text += "\n  its state could not be written: " + std::string(also.what());
+  }
+  throw Diverged(text);
+}
+
+void Driver::show_progress() {
+  progress_.show({clock_, dt_, method_.fields().size(), monitor_.mass_error(method_.totals())});
+}
+
+Values Driver::run_values() const {
+  Values values;
+  values["clock"] = {clock_.t, static_cast<double>(clock_.step)};
+  values["events_done"] = {static_cast<double>(events_.outputs.done()), static_cast<double>(events_.comparisons.done())};
+  values["initial"] = {monitor_.initial_mass(), static_cast<double>(initial_particles_)};
+  values["depth_l1_rel"] = l1_samples_;
+  values["effort"] = {wall(), earlier_particle_steps_ + progress_.particle_steps()};
+  gauges_.save(values);
+  run_ups_.save(values);
+  return values;
+}
+
+void Driver::restore(const Checkpoint& checkpoint) {
+  const Values& run = checkpoint.run;
+  clock_ = {run.at("clock").at(0), std::lround(run.at("clock").at(1))};
+  events_.outputs.skip_to(static_cast<std::size_t>(run.at("events_done").at(0)));
+  events_.comparisons.skip_to(static_cast<std::size_t>(run.at("events_done").at(1)));
+  monitor_.start(run.at("initial").at(0));
+  initial_particles_ = static_cast<int>(run.at("initial").at(1));
+  l1_samples_ = run.at("depth_l1_rel");
+  earlier_wall_ = run.at("effort").at(0);
+  earlier_particle_steps_ = run.at("effort").at(1);
+  gauges_.restore(run);
+  run_ups_.restore(run);
+  if (std::filesystem::exists(inside(options_.directory, "particles.h5part"))) {
+    particles_.truncate(static_cast<int>(events_.outputs.done()));
+  } else {
+    particles_.create(scene_.text, build::version);
+  }
+  progress_ = Progress(options_.progress, options_.terminal, clock_.t, scene_.end_time);
+}
+
+MassBalance Driver::mass_balance() const {
+  const Totals totals = method_.totals();
+  MassBalance mass;
+  mass.initial = monitor_.initial_mass();
+  mass.inflow = totals.inflow;
+  mass.outflow = totals.outflow;
+  mass.final = totals.mass;
+  mass.relative_error = monitor_.mass_error(totals);
+  const double unaccounted = std::abs(totals.inflow - totals.outflow - totals.straddle - totals.flux);
+  if (!scene_.boundaries.empty()) mass.flux_error = unaccounted / std::max(totals.flux_gross, 1e-300);
+  return mass;
+}
+
+std::vector<GaugeResult> Driver::gauge_results() const {
+  std::vector<GaugeResult> results;
+  for (std::size_t g = 0; g < scene_.gauges.size(); ++g) {
+    results.push_back(compare_gauge(scene_.gauges[g], gauges_.rows(), g));
+  }
+  return results;
+}
+
+std::vector<RunUpResult> Driver::run_up_results() const {
+  std::vector<RunUpResult> results;
+  for (std::size_t r = 0; r < scene_.run_ups.size(); ++r) {
+    RunUpResult result;
+    result.name = scene_.run_ups[r].name;
+    if (run_ups_.highest()[r] > -1e299) result.highest = run_ups_.highest()[r];
+    if (const auto& range = scene_.run_ups[r].measured) result.measured = {(*range)[0], (*range)[1]};
+    results.push_back(result);
+  }
+  return results;
+}
+
+ErrorNorms Driver::errors() const {
+  const Fluid fluid = fluid_on_host(method_.fields());
+  ErrorNorms errors = particle_errors(scene_, fluid, clock_.t);
+  errors.depth_l1_rel = median(l1_samples_);
+  errors.grid_l2_rel = grid_l2(scene_, fluid, clock_.t);
+  return errors;
+}
+
+Summary Driver::summary() const {
+  Summary s;
+  s.scene_case = scene_.name;
+  s.method = method_.name();
+  s.backend = backend_name();
+  s.version = build::version;
+  s.threads = thread_count();
+  s.initial_particles = initial_particles_;
+  s.final_particles = fluid_count(method_.fields());
+  s.steps = clock_.step;
+  s.list_rebuilds = method_.report().rebuilds;
+  s.simulated = clock_.t;
+  s.wall = wall();
+  s.particle_steps_per_s = (earlier_particle_steps_ + progress_.particle_steps()) / std::max(s.wall, 1e-9);
+  s.mass = mass_balance();
+  s.gauges = gauge_results();
+  s.run_ups = run_up_results();
+  s.compared = scene_.compare.exact != nullptr;
+  if (s.compared) s.errors = errors();
+  return s;
+}
+
+}  // namespace freshet

@@ -1,0 +1,68 @@
+// The time loop of one run, and everything that happens around a step. Results go to one directory.
+#pragma once
+#include <atomic>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "src/errors.hpp"
+#include "src/io/h5part.hpp"
+#include "src/io/summary.hpp"
+#include "src/run/monitor.hpp"
+#include "src/run/progress.hpp"
+#include "src/run/stations.hpp"
+
+namespace freshet {
+
+struct RunOptions {
+  std::string directory;                     // exists
+  std::FILE* progress = nullptr;             // nullptr: no progress lines
+  bool terminal = false;                     // progress goes to a terminal
+  const std::atomic<bool>* stop = nullptr;   // finish the step and leave when it becomes true
+};
+
+class Driver {
+ public:
+  // Keeps references to the scene and the method.
+  Driver(const Scene& scene, Method& method, RunOptions options);
+
+  void begin();                                 // a new run: files, first output, mass at the start
+  void restore(const Checkpoint& checkpoint);   // goes on; the method has its fields and scalars already
+  // To the end of the scene (true) or until the stop flag (false); the state is written either way. If the run diverges the
+  // state goes to diverged.h5, the last good state.h5 stays, and Diverged is thrown.
+  bool run();
+  const Clock& clock() const { return clock_; }
+  Summary summary() const;
+
+ private:
+  void step();
+  void fire_events();
+  void write_particles();
+  void write_state(const std::string& name);
+  [[noreturn]] void give_up(const Diverged& why);
+  void show_progress();
+  Values run_values() const;
+  MassBalance mass_balance() const;
+  std::vector<GaugeResult> gauge_results() const;
+  std::vector<RunUpResult> run_up_results() const;
+  ErrorNorms errors() const;
+  double wall() const { return earlier_wall_ + progress_.elapsed(); }
+
+  const Scene& scene_;
+  Method& method_;
+  RunOptions options_;
+  Clock clock_;
+  Events events_;
+  Monitor monitor_;
+  GaugeRecorder gauges_;
+  RunUpRecorder run_ups_;
+  ParticleFile particles_;
+  Progress progress_;
+  std::vector<double> l1_samples_;  // depth_l1_rel at the comparison times
+  double dt_ = 0;                   // s, of the last step
+  int initial_particles_ = 0;
+  double earlier_wall_ = 0, earlier_particle_steps_ = 0;  // of the processes before a resume
+  double last_checkpoint_ = 0;                            // s, progress_.elapsed() then
+};
+
+}  // namespace freshet

@@ -1,0 +1,155 @@
+#include "src/run/monitor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "src/errors.hpp"
+#include "src/io/fluid.hpp"
+
+namespace freshet {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double margin_in_h = 4;    // a few smoothing lengths: walls act within 2 h, so a particle beyond is lost
+constexpr double buffer_in_dx = 6;   // depth of an open boundary's buffer outside the domain
+
+Allowed allowed_in(const Scene& scene) {
+  const double dx = scene.water.spacing;
+  const double margin = margin_in_h * scene.sph.eta * dx + (scene.boundaries.empty() ? 0 : buffer_in_dx * dx);
+  const Point low = scene.domain.low, high = scene.domain.high;
+  const bool flat = scene.domain.dimension == 1;
+  return {low[0] - margin, high[0] + margin, flat ? -infinity : low[1] - margin, flat ? infinity : high[1] + margin,
+          margin, scene.limits.speed};
+}
+
+std::string text(double value) {
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%.6g", value);
+  return digits;
+}
+
+std::string when(const Clock& clock) { return "at t = " + text(clock.t) + " s, step " + std::to_string(clock.step); }
+
+Field<double> field_or(const FieldSet& fields, const char* name, const char* fallback) {
+  const auto* field = find_real(fields, name);
+  return field ? field->data : find_real(fields, fallback)->data;
+}
+
+// Every comparison is false for NaN, so that "not (inside)" also finds values that are not finite.
+int count_bad(const FieldSet& fields, const Allowed& in) {
+  const Input<double> x = field_or(fields, "x", "x"), y = field_or(fields, "y", "x");
+  const Input<double> u = field_or(fields, "u", "u"), v = field_or(fields, "v", "u");
+  const Input<double> depth = field_or(fields, "depth", "depth");
+  const double limit2 = in.speed * in.speed, second = find_real(fields, "v") ? 1 : 0;
+  int bad = 0;
+  Kokkos::parallel_reduce(
+      "run::monitor", Range(0, fields.size()),
+      KOKKOS_LAMBDA(int i, int& count) {
+        const bool inside = x(i) >= in.x_low && x(i) <= in.x_high && y(i) >= in.y_low && y(i) <= in.y_high;
+        const bool sound = depth(i) >= 0 && depth(i) < infinity && u(i) * u(i) + second * v(i) * v(i) <= limit2;
+        count += inside && sound ? 0 : 1;
+      },
+      bad);
+  return bad;
+}
+
+// The particles on the host. A field that the method does not have reads as zero.
+class Particles {
+ public:
+  explicit Particles(const FieldSet& fields) : fields_(fields) {
+    for (const auto& field : fields.reals()) host_.push_back(on_host(field.data));
+    if (const auto* id = find_integer(fields, "id")) id_ = on_host(id->data);
+    for (std::size_t f = 0; f < host_.size(); ++f) {
+      const std::string& name = fields.reals()[f].name;
+      if (name == "x") x_ = host_[f];
+      if (name == "y") y_ = host_[f];
+      if (name == "u") u_ = host_[f];
+      if (name == "v") v_ = host_[f];
+      if (name == "depth") depth_ = host_[f];
+    }
+  }
+
+  int id(int i) const { return id_.extent(0) ? id_(i) : i; }
+  std::string where(int i) const {
+    const std::string place = "particle " + std::to_string(id(i)) + " at x = " + text(x_(i)) + " m";
+    return y_.extent(0) ? place + ", y = " + text(y_(i)) + " m" : place;
+  }
+
+  // What is wrong with particle i, and the limit; "" if nothing is.
+  std::string fault(int i, const Allowed& in) const {
+    const double v = v_.extent(0) ? v_(i) : 0, y = y_.extent(0) ? y_(i) : in.y_low, speed = std::hypot(u_(i), v);
+    if (const std::string value = not_finite(i); !value.empty()) return value + "; limit: every value is finite";
+    if (depth_(i) < 0) return "depth = " + text(depth_(i)) + " m; limit: no depth is negative";
+    if (speed > in.speed) {
+      return "speed = " + text(speed) + " m/s; limit: limits.speed = " + text(in.speed) + " m/s";
+    }
+    if (x_(i) >= in.x_low && x_(i) <= in.x_high && y >= in.y_low && y <= in.y_high) return "";
+    return "it left the domain; limit: " + text(in.margin) + " m outside";
+  }
+
+ private:
+  using Host = decltype(on_host(Field<double>()));
+
+  // Scratch fields (Carry::no) belong to no particle and may hold anything.
+  std::string not_finite(int i) const {
+    for (std::size_t f = 0; f < host_.size(); ++f) {
+      const auto& field = fields_.reals()[f];
+      if (field.carry != Carry::no && !std::isfinite(host_[f](i))) return field.name + " = " + text(host_[f](i));
+    }
+    return "";
+  }
+
+  const FieldSet& fields_;
+  std::vector<Host> host_;
+  Host x_, y_, u_, v_, depth_;
+  decltype(on_host(Field<int>())) id_;
+};
+
+// Of several the particle with the lowest id, whatever the order in memory; "" if nothing is wrong.
+std::string find_bad(const FieldSet& fields, const Allowed& allowed) {
+  const Particles particles(fields);
+  int first = -1;
+  std::string found;
+  for (int i = 0; i < fields.size(); ++i) {
+    const std::string fault = particles.fault(i, allowed);
+    if (fault.empty() || (first >= 0 && particles.id(first) <= particles.id(i))) continue;
+    first = i;
+    found = particles.where(i) + ": " + fault;
+  }
+  return found;
+}
+
+}  // namespace
+
+Monitor::Monitor(const Scene& scene) : allowed_(allowed_in(scene)), mass_limit_(scene.limits.mass_error) {}
+
+void Monitor::check(const Method& method, const Clock& clock) const {
+  if (count_bad(method.fields(), allowed_) == 0) return;
+  throw Diverged("the run diverged " + when(clock) + ": " + find_bad(method.fields(), allowed_));
+}
+
+void Monitor::check_all(const Method& method, const Clock& clock) const {
+  const std::string bad = find_bad(method.fields(), allowed_);
+  if (!bad.empty()) throw Diverged("the run diverged " + when(clock) + ": " + bad);
+  const Totals totals = method.totals();
+  const double error = mass_error(totals);
+  if (error <= mass_limit_) return;
+  throw Diverged("the mass balance broke " + when(clock) + ": " + text(totals.mass) + " m3 of water, " +
+                 text(initial_mass_) + " m3 at the start, " + text(totals.inflow) + " m3 in, " + text(totals.outflow) +
+                 " m3 out: relative error " + text(error) + "; limit: limits.mass_error = " + text(mass_limit_));
+}
+
+void Monitor::check_dt(double dt, const Clock& clock) const {
+  if (dt > 0 && clock.t + dt > clock.t) return;
+  throw Diverged("the run diverged " + when(clock) + ": the stable time step is " + text(dt) +
+                 " s; limit: time must advance");
+}
+
+double Monitor::mass_error(const Totals& totals) const {
+  const double scale = std::max(initial_mass_ > 0 ? initial_mass_ : totals.inflow, 1e-300);
+  return std::abs(totals.mass - initial_mass_ - totals.inflow + totals.outflow) / scale;
+}
+
+}  // namespace freshet

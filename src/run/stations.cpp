@@ -1,0 +1,90 @@
+#include "src/run/stations.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace freshet {
+namespace {
+
+double lerp(double a, double b, double w) { return a + w * (b - a); }
+
+double interval(const Scene& scene) {
+  return scene.output.gauges_every > 0 ? scene.output.gauges_every : scene.output.every;
+}
+
+PointState between(const PointState& a, const PointState& b, double w) {
+  PointState state;
+  state.bed = lerp(a.bed, b.bed, w);
+  state.depth = lerp(a.reached ? a.depth : 0, b.reached ? b.depth : 0, w);
+  state.reached = a.reached || b.reached;
+  return state;
+}
+
+}  // namespace
+
+GaugeRecorder::GaugeRecorder(const Scene& scene, const std::string& path)
+    : gauges_(scene.gauges),
+      folder_(std::filesystem::path(path).parent_path().string()),
+      times_(regular_times(interval(scene), scene.end_time)),
+      file_(path) {
+  for (const auto& gauge : gauges_) points_.push_back(gauge.at);
+}
+
+void GaugeRecorder::begin(const Method& method) {
+  if (absent()) return;
+  file_.create(gauges_);
+  write_measured((std::filesystem::path(folder_) / "measured.csv").string(), gauges_);
+  write(0, method.sample(points_));
+  times_.advance();
+}
+
+void GaugeRecorder::watch(const Method& method, double t, double until) {
+  if (absent() || times_.next() > until || watched_t_ == t) return;
+  watched_ = method.sample(points_);
+  watched_t_ = t;
+}
+
+void GaugeRecorder::record(const Method& method, double t) {
+  if (absent() || !times_.due(t)) return;
+  const auto now = method.sample(points_);
+  for (; times_.due(t); times_.advance()) {
+    const double w = (times_.next() - watched_t_) / (t - watched_t_);
+    std::vector<PointState> states;
+    for (std::size_t g = 0; g < now.size(); ++g) states.push_back(between(watched_[g], now[g], w));
+    write(times_.next(), states);
+  }
+  watched_ = now;
+  watched_t_ = t;
+}
+
+void GaugeRecorder::write(double t, const std::vector<PointState>& states) {
+  GaugeRow row;
+  row.t = t;
+  for (const auto& state : states) {
+    const bool dry = !state.reached || state.depth < dry_depth;
+    row.elevation.push_back(dry ? state.bed : state.bed + state.depth);
+    row.dry.push_back(dry);
+  }
+  file_.append(row);
+  rows_.push_back(row);
+}
+
+void GaugeRecorder::save(Values& values) const { values["gauge_rows"] = {static_cast<double>(rows_.size())}; }
+
+void GaugeRecorder::restore(const Values& values) {
+  if (absent()) return;
+  const auto rows = static_cast<std::size_t>(values.at("gauge_rows").at(0));
+  rows_ = file_.continue_after(rows);
+  times_.skip_to(rows);
+}
+
+RunUpRecorder::RunUpRecorder(const std::vector<RunUp>& points) : points_(points), highest_(points.size(), -1e300) {}
+
+void RunUpRecorder::record(const Method& method) {
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const auto& point = points_[k];
+    highest_[k] = std::max(highest_[k], method.highest_wet_bed(point.at, point.radius, point.min_depth));
+  }
+}
+
+}  // namespace freshet

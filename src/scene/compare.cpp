@@ -1,0 +1,110 @@
+// [compare]: the exact solution and how the errors against it are measured.
+#include <cmath>
+
+#include "src/reference/exact.hpp"
+#include "src/scene/sections.hpp"
+
+namespace freshet::input {
+namespace {
+
+struct Solution {
+  std::shared_ptr<const Exact> exact;
+  std::string description;
+  double shock_speed = 0;       // m/s, 0 = no shock
+  double shock_cell_ratio = 1;  // depth behind over depth ahead: particles of equal mass lie so much wider ahead
+};
+
+Solution read_stoker(Table& table, const Scene& scene) {
+  const double left = table.number("left", "m").positive().required(2);
+  const double right = table.number("right", "m").positive().check(
+      [left](double depth) { return depth < left; }, "below 'left' (" + shown(left) + ")",
+      "the deep water of the Stoker solution is on the left").required(1);
+  const double dam = table.number("dam", "m").required();
+  const double speed = right < left ? stoker_middle(left, right, scene.gravity).shock : 0;
+  return {stoker(left, right, dam, scene.gravity),
+          shown(left) + " m | " + shown(right) + " m, dam at " + shown(dam) + " m", speed, left / right};
+}
+
+Bowl read_bowl(Table& table, const Scene& scene) {
+  Bowl bowl{};
+  bowl.depth0 = table.number("depth", "m").positive().required(1);
+  bowl.radius = table.number("radius", "m").positive().required(1);
+  const Point centre = table.point("centre", scene.domain.dimension).otherwise({0, 0});
+  bowl.x0 = centre[0];
+  bowl.y0 = centre[1];
+  return bowl;
+}
+
+std::string described(const Bowl& bowl) {
+  return "depth " + shown(bowl.depth0) + " m, radius " + shown(bowl.radius) + " m";
+}
+
+Solution read_planar(Table& table, const Scene& scene) {
+  const Bowl bowl = read_bowl(table, scene);
+  const double xi = table.number("xi", "m").positive().required(1);
+  return {thacker_planar(bowl, xi, scene.gravity), described(bowl) + ", xi = " + shown(xi) + " m"};
+}
+
+Solution read_radial(Table& table, const Scene& scene) {
+  const Bowl bowl = read_bowl(table, scene);
+  const auto inside = [](double a) { return a > 0 && a < 1; };
+  const double amplitude = table.number("amplitude").check(inside, "between 0 and 1, both excluded").required(0.5);
+  return {thacker_radial(bowl, amplitude, scene.gravity), described(bowl) + ", A = " + shown(amplitude)};
+}
+
+Solution read_rest(Table& table, const Scene& scene) {
+  const double level = table.number("level", "m").required();
+  return {still_water(level, scene.bed.elevation), "level " + shown(level) + " m"};
+}
+
+Solution read_exact(Table& table, const Scene& scene) {
+  using Reader = Solution (*)(Table&, const Scene&);
+  const Reader reader = table.choice<Reader>("type", {{"stoker", read_stoker},
+                                                      {"thacker-planar", read_planar},
+                                                      {"thacker-radial", read_radial},
+                                                      {"rest", read_rest}}).required();
+  if (!reader) {
+    table.accept_rest();
+    return {};
+  }
+  Solution solution = reader(table, scene);
+  solution.description = table.text("type").required() + ": " + solution.description;
+  return solution;
+}
+
+// A number of seconds, or { shock_cells = n }: the time in which the shock crosses n particles ahead of it. A particle's
+// own error peaks as the shock passes it, so that the error against the exact solution swings with that period.
+double read_window(Table& section, const Solution& solution, const Scene& scene) {
+  if (!section.has_table("window")) return section.number("window", "s").at_least(0).otherwise(0);
+  Table window = section.table("window");
+  const double cells = window.number("shock_cells").positive().required(1);
+  if (solution.shock_speed > 0) {
+    const bool wider = scene.water.start == Water::Start::equal_mass;
+    return cells * scene.water.spacing * (wider ? solution.shock_cell_ratio : 1) / solution.shock_speed;
+  }
+  if (solution.exact) window.error("shock_cells", "the exact solution has no shock to take 'shock_cells' from");
+  return 0;
+}
+
+}  // namespace
+
+ComparePlan read_compare(Table& section, Scene& scene) {
+  Solution solution;
+  {
+    Table exact = section.table("exact");
+    if (exact.given()) solution = read_exact(exact, scene);
+    section.context().exact_failed = section.has("exact") && !solution.exact;
+  }
+  scene.compare.exact = solution.exact;
+  scene.compare.description = solution.description;
+  scene.compare.threshold = section.number("threshold", "m").at_least(0).otherwise(scene.compare.threshold);
+  scene.compare.grid_spacing = section.number("grid", "m").positive().optional();
+  scene.compare.samples = section.integer("samples").within(1, 10000).otherwise(scene.compare.samples);
+  ComparePlan plan;
+  plan.window = read_window(section, solution, scene);
+  plan.around_end = section.choice<bool>("spread", {{"before", false}, {"around", true}}).otherwise(false);
+  scene.compare.window = plan.window;
+  return plan;
+}
+
+}  // namespace freshet::input

@@ -1,0 +1,85 @@
+#include "src/scene/place.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "src/errors.hpp"
+
+namespace freshet {
+namespace {
+
+double finite_depth(const Function& depth, double x, double y) {
+  const double d = depth(x, y);
+  if (!std::isfinite(d))
+    throw SceneError("water: the depth at (" + std::to_string(x) + ", " + std::to_string(y) +
+                     ") m is not a finite number; check the expressions of [water] and [bed] there");
+  return d;
+}
+
+Point velocity_at(const Scene& scene, double x, double y) {
+  Point v{0, 0};
+  for (int k = 0; k < 2; ++k)
+    if (scene.water.velocity[k]) v[k] = scene.water.velocity[k](x, y);
+  return v;
+}
+
+// Cells along one side of the box.
+struct Cells {
+  int n;
+  double low, width;
+  double centre(int k) const { return low + (k + 0.5) * width; }
+};
+Cells cells_along(const Scene& scene, int axis) {
+  const double length = scene.domain.high[axis] - scene.domain.low[axis];
+  const int n = std::max(1, static_cast<int>(std::lround(length / scene.water.spacing)));
+  return {n, scene.domain.low[axis], length / n};
+}
+
+std::vector<Placed> place_cells(const Scene& scene, const Function& depth) {
+  std::vector<Placed> particles;
+  const bool plane = scene.domain.dimension == 2;
+  const Cells along_x = cells_along(scene, 0), along_y = plane ? cells_along(scene, 1) : Cells{1, -0.5, 1};
+  const double area = along_x.width * along_y.width;
+  const double h0 = scene.sph.eta * (plane ? std::sqrt(area) : area);
+  for (int j = 0; j < along_y.n; ++j)
+    for (int i = 0; i < along_x.n; ++i) {
+      const double x = along_x.centre(i), y = along_y.centre(j), d = finite_depth(depth, x, y);
+      if (d > scene.water.wet_above) particles.push_back({{x, y}, d, area, h0, velocity_at(scene, x, y)});
+    }
+  return particles;
+}
+
+// Equal masses m = d_max dx: each particle sits where half of its own mass lies behind it. The cumulative depth is summed on
+// a fine raster whose cells divide the spacing, so that a dam between cells stays sharp.
+std::vector<Placed> place_equal_mass(const Scene& scene, const Function& depth) {
+  constexpr int fine = 64;
+  Cells raster = cells_along(scene, 0);
+  raster.n *= fine;
+  raster.width /= fine;
+  double deepest = 0;
+  for (int k = 0; k < raster.n; ++k) deepest = std::max(deepest, finite_depth(depth, raster.centre(k), 0));
+  const double mass = deepest * raster.width * fine;
+  std::vector<Placed> particles;
+  double before = 0;
+  for (int k = 0; k < raster.n; ++k) {
+    const double d = std::max(0.0, depth(raster.centre(k), 0)), here = d * raster.width;
+    const double next = (particles.size() + 0.5) * mass;
+    if (d > scene.water.wet_above && before + here >= next * (1 - 1e-12)) {
+      const double x = raster.low + raster.width * (k + (next - before) / here), spacing = mass / d;
+      particles.push_back({{x, 0}, d, spacing, scene.sph.eta * spacing, velocity_at(scene, x, 0)});
+    }
+    before += here;
+  }
+  return particles;
+}
+
+}  // namespace
+
+std::vector<Placed> place(const Scene& scene, const Function& depth) {
+  auto particles = scene.water.start == Water::Start::equal_mass ? place_equal_mass(scene, depth) : place_cells(scene, depth);
+  if (particles.empty()) throw SceneError("water: no particle is wet; the depth is nowhere above " +
+                                          std::to_string(scene.water.wet_above) + " m: check [water] and [bed]");
+  return particles;
+}
+
+}  // namespace freshet

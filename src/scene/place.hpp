@@ -1,0 +1,22 @@
+// Where a scene's particles start.
+#pragma once
+#include <vector>
+
+#include "src/scene/scene.hpp"
+
+namespace freshet {
+
+struct Placed {
+  Point x;          // m
+  double depth;     // m
+  double area;      // m2 (1-D: m), mass = depth x area
+  double h0;        // m, eta x sqrt(area) (1-D: eta x spacing)
+  Point velocity;   // m/s
+};
+
+// Cell-centred lattice whose cells fill the domain's box exactly (so dx and dy may differ by a little), or in 1-D particles
+// of equal mass. depth(x, y) [m]; places where depth > scene.water.wet_above. Throws SceneError if nothing is wet or a
+// depth is not finite.
+std::vector<Placed> place(const Scene& scene, const Function& depth);
+
+}  // namespace freshet

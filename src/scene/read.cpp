@@ -1,0 +1,89 @@
+#include "src/scene/read.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "src/errors.hpp"
+#include "src/scene/overrides.hpp"
+#include "src/scene/sections.hpp"
+#include "src/scene/serialise.hpp"
+
+namespace freshet {
+namespace {
+
+using namespace input;
+
+template <class Reader>
+void read_each(Table& root, const std::string& key, Scene& scene, Reader reader) {
+  const std::size_t count = root.size_of(key);
+  for (std::size_t i = 0; i < count; ++i) {
+    Table element = root.element(key, i);
+    reader(element, scene);
+  }
+}
+
+// The order in which sections need each other; the file may have them in any order.
+void read_sections(Table& root, Scene& scene) {
+  Table head = root.table("scene"), domain = root.table("domain"), sph = root.table("sph");
+  Table water = root.table("water"), bed = root.table("bed"), compare = root.table("compare");
+  Table time = root.table("time"), output = root.table("output"), limits = root.table("limits");
+  read_scene_section(head, scene);
+  read_domain(domain, scene);
+  const bool acceleration_named = read_sph(sph, scene);
+  read_spacing(water, scene);
+  read_bed(bed, scene);
+  const ComparePlan plan = read_compare(compare, scene);
+  // Exact solutions belong to the classical shallow-water equations.
+  if (!acceleration_named && scene.compare.exact) scene.sph.acceleration = Acceleration::classical;
+  read_water_state(water, scene);
+  read_time(time, plan, scene);
+  read_each(root, "boundary", scene, read_boundary);
+  read_each(root, "wall", scene, read_wall);
+  read_each(root, "gauge", scene, read_gauge);
+  read_each(root, "runup", scene, read_run_up);
+  read_output(output, scene);
+  read_limits(limits, scene);
+}
+
+toml::table parse(const std::string& text, Diagnostics& diagnostics) {
+  try {
+    return toml::parse(std::string_view(text), std::string("0"));
+  } catch (const toml::parse_error& error) {
+    const toml::source_position at = error.source().begin;
+    diagnostics.error({0, static_cast<int>(at.line), static_cast<int>(at.column)}, std::string(error.description()));
+  }
+  return {};
+}
+
+}  // namespace
+
+Scene read_scene_text(const std::string& text, const std::string& file, const std::vector<std::string>& overrides) {
+  Diagnostics diagnostics;
+  diagnostics.add_source(file, text);
+  toml::table tree = parse(text, diagnostics);
+  diagnostics.throw_if_any();
+  apply_overrides(overrides, tree, diagnostics);
+
+  Scene scene;
+  scene.file = file;
+  scene.name = std::filesystem::path(file).stem().string();
+  Context context{diagnostics, std::filesystem::absolute(file).parent_path(), scene.gravity, false, {}};
+  {
+    Table root(context, &tree, "", Place{});
+    read_sections(root, scene);
+  }
+  diagnostics.throw_if_any();
+  scene.notes = std::move(context.notes);
+  scene.text = serialise(tree);
+  return scene;
+}
+
+Scene read_scene(const std::string& path, const std::vector<std::string>& overrides) {
+  std::ifstream in(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (!in && text.empty()) throw SceneError(path + ": error: cannot read the scene file");
+  return read_scene_text(text, path, overrides);
+}
+
+}  // namespace freshet

@@ -1,0 +1,184 @@
+#include "src/scene/series.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "src/scene/files.hpp"
+#include "src/scene/table.hpp"
+
+namespace freshet::input {
+namespace {
+
+struct Row {
+  int line;
+  std::vector<std::string> cells;
+};
+
+struct Sheet {
+  std::vector<std::string> header;  // empty = none
+  std::vector<Row> rows;
+};
+
+bool any_number(const std::vector<std::string>& cells) {
+  double number;
+  return std::any_of(cells.begin(), cells.end(), [&](const std::string& cell) { return parse_number(cell, number); });
+}
+
+// Names may hold blanks ("water surface(m)"): where the blanks give another count than the data, two blanks separate.
+std::vector<std::string> split_header(const std::string& line, std::size_t columns) {
+  std::vector<std::string> cells = split_cells(line);
+  if (cells.size() <= columns || line.find_first_of(",;\t") != std::string::npos) return cells;
+  std::string marked;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const bool run = line[i] == ' ' && ((i + 1 < line.size() && line[i + 1] == ' ') || (i > 0 && line[i - 1] == ' '));
+    marked += run ? '\t' : line[i];
+  }
+  cells = split_cells(marked);
+  cells.erase(std::remove(cells.begin(), cells.end(), ""), cells.end());
+  return cells;
+}
+
+Sheet read_sheet(const std::string& path) {
+  Sheet sheet;
+  std::string header;
+  for_each_line(read_text(path), [&](int number, const std::string& line) {
+    if (is_comment_or_empty(line)) return;
+    std::vector<std::string> cells = split_cells(line);
+    const bool is_header = header.empty() && sheet.rows.empty() && !any_number(cells);
+    if (is_header) header = line;
+    else if (!cells.empty()) sheet.rows.push_back({number, std::move(cells)});
+  });
+  if (sheet.rows.empty()) throw BadData("'" + file_name(path) + "' holds no numbers");
+  if (!header.empty()) sheet.header = split_header(header, sheet.rows.front().cells.size());
+  return sheet;
+}
+
+std::size_t index_of(const Column& column, const Sheet& sheet, const std::string& path, bool is_time) {
+  const std::string shown = file_name(path);
+  if (column.number > 0) {
+    const std::size_t count = sheet.rows.front().cells.size();
+    if (static_cast<std::size_t>(column.number) <= count) return column.number - 1;
+    throw NoSuchColumn{is_time, "'" + shown + "' has no column " + std::to_string(column.number),
+                       "it has " + std::to_string(count) + (count == 1 ? " column" : " columns") + ", counted from 1"};
+  }
+  const auto found = std::find(sheet.header.begin(), sheet.header.end(), column.name);
+  if (found != sheet.header.end()) return found - sheet.header.begin();
+  std::string help = sheet.header.empty() ? "the file has no header line: give the column's number, counted from 1"
+                                          : did_you_mean(column.name, sheet.header);
+  if (help.empty()) help = "its columns are " + listed(sheet.header);
+  throw NoSuchColumn{is_time, "'" + shown + "' has no column '" + column.name + "'", help};
+}
+
+struct Columns {
+  std::size_t t, value;
+};
+
+Columns find_columns(const SeriesFile& file, const Sheet& sheet) {
+  return {index_of(file.t, sheet, file.path, true), index_of(file.value, sheet, file.path, false)};
+}
+
+bool read_row(const Row& row, const Columns& columns, double& t, double& value) {
+  return columns.t < row.cells.size() && columns.value < row.cells.size() &&
+         parse_number(row.cells[columns.t], t) && parse_number(row.cells[columns.value], value);
+}
+
+std::string bad_cell(const Row& row, const Columns& columns) {
+  double number;
+  for (const std::size_t i : {columns.t, columns.value}) {
+    const std::string column = "column " + std::to_string(i + 1);
+    if (i >= row.cells.size()) return column + " is missing";
+    if (!parse_number(row.cells[i], number)) return column + " holds '" + row.cells[i] + "', not a number";
+  }
+  return "";
+}
+
+Series sorted(const Series& series, const std::string& path, std::vector<std::string>& notes) {
+  std::vector<std::size_t> order(series.t.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto earlier = [&](std::size_t a, std::size_t b) { return series.t[a] < series.t[b]; };
+  const bool was_sorted = std::is_sorted(order.begin(), order.end(), earlier);
+  std::stable_sort(order.begin(), order.end(), earlier);
+  Series out;
+  for (const std::size_t i : order) {
+    if (!out.t.empty() && series.t[i] == out.t.back()) continue;
+    out.t.push_back(series.t[i]);
+    out.value.push_back(series.value[i]);
+  }
+  const std::size_t repeated = series.t.size() - out.t.size();
+  if (!was_sorted) notes.push_back(file_name(path) + ": rows sorted by time");
+  if (repeated > 0) {
+    notes.push_back(file_name(path) + ": " + std::to_string(repeated) + " rows with a repeated time left out");
+  }
+  return out;
+}
+
+Value<Column> column(Table& table, const std::string& key, Column fallback) {
+  if (table.has_text(key)) {
+    const std::string name = table.text(key).required();
+    return {Slot{&table.context(), table.path_of(key), table.place_of(key), true, nullptr}, Column{0, name}};
+  }
+  const int number = table.integer(key).at_least(1).otherwise(fallback.number);
+  return {Slot{&table.context(), table.path_of(key), table.place_of(key), true, nullptr}, Column{number, ""}};
+}
+
+}  // namespace
+
+Series read_forcing(const SeriesFile& file) {
+  const Sheet sheet = read_sheet(file.path);
+  const Columns columns = find_columns(file, sheet);
+  Series series;
+  for (const Row& row : sheet.rows) {
+    double t, value;
+    if (!read_row(row, columns, t, value)) throw BadData(at_line(file.path, row.line) + ": " + bad_cell(row, columns));
+    if (!series.t.empty() && !(t > series.t.back())) {
+      throw BadData(at_line(file.path, row.line) + ": time " + shown(t) + " s follows " + shown(series.t.back()) +
+                        " s; times must increase strictly", "sort the rows and remove repeated times");
+    }
+    series.t.push_back(t);
+    series.value.push_back(value * file.scale + file.offset);
+  }
+  return series;
+}
+
+Series read_measured(const SeriesFile& file, std::vector<std::string>& notes) {
+  const Sheet sheet = read_sheet(file.path);
+  const Columns columns = find_columns(file, sheet);
+  Series series;
+  std::size_t left_out = 0;
+  for (const Row& row : sheet.rows) {
+    double t, value;
+    if (!read_row(row, columns, t, value)) {
+      ++left_out;
+      continue;
+    }
+    series.t.push_back(t);
+    series.value.push_back(value * file.scale + file.offset);
+  }
+  if (series.t.empty()) throw BadData(at_line(file.path, sheet.rows[0].line) + ": " + bad_cell(sheet.rows[0], columns));
+  if (left_out > 0) {
+    notes.push_back(file_name(file.path) + ": " + std::to_string(left_out) + " rows without numbers left out");
+  }
+  return sorted(series, file.path, notes);
+}
+
+Series read_series(Table& table, SeriesUse use) {
+  SeriesFile file;
+  Value<std::string> path = table.file("file");
+  Value<Column> t = column(table, "t", file.t), value = column(table, "value", file.value);
+  file.path = path.required();
+  file.t = *t.optional();
+  file.value = *value.optional();
+  file.scale = table.number("scale").otherwise(1);
+  file.offset = table.number("offset").otherwise(0);
+  if (file.path.empty()) return {};
+  try {
+    return use == SeriesUse::forcing ? read_forcing(file) : read_measured(file, table.context().notes);
+  } catch (const BadData& bad) {
+    path.fail(bad.what(), bad.help, Blame::data);
+  } catch (const NoSuchColumn& none) {
+    (none.is_time ? t : value).fail(none.message, none.help);
+  }
+  return {};
+}
+
+}  // namespace freshet::input

@@ -1,0 +1,159 @@
+// A typed view of one TOML table. A section of the scene reads like its documentation:
+//   water.number("spacing", "m").positive().required();
+// Every key asked for is known; when the Table goes out of scope it reports the keys that nobody asked for, and those
+// that are missing. Nothing throws here: errors collect in Diagnostics and reading goes on with a stand-in value.
+#pragma once
+#include <toml++/toml.h>
+
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "src/scene/diagnostics.hpp"
+#include "src/scene/scene.hpp"
+
+namespace freshet::input {
+
+// What all tables of one scene share.
+struct Context {
+  Diagnostics& diagnostics;
+  std::filesystem::path directory;  // of the scene file: relative paths start here
+  double gravity = 9.81;            // m/s2, the constant g of expressions
+  bool exact_failed = false;        // [compare] names an exact solution, with errors: no errors follow from its absence
+  std::vector<std::string> notes;   // what the reader decided and the user may want to know
+};
+
+std::string shown(double number);  // shortest text, for messages
+
+// A key of a table, named or not.
+struct Slot {
+  Context* context;
+  std::string path;  // "water.spacing"
+  Place place;
+  bool given;
+  std::function<void()> report_missing;
+};
+
+// The value of a key: what it must satisfy, and what stands for it when it is absent.
+template <class T>
+class Value {
+ public:
+  Value(Slot slot, std::optional<T> value) : slot_(std::move(slot)), value_(std::move(value)) {}
+
+  template <class Test>
+  Value& check(Test holds, const std::string& rule, const std::string& help = "") {
+    if (value_ && !holds(*value_)) fail("'" + slot_.path + "' is " + shown(*value_) + "; it must be " + rule, help);
+    return *this;
+  }
+  Value& positive() { return check([](T v) { return v > 0; }, "positive"); }
+  Value& at_least(T low) { return check([low](T v) { return v >= low; }, "at least " + shown(low)); }
+  Value& within(T low, T high) {
+    return check([=](T v) { return v >= low && v <= high; }, "between " + shown(low) + " and " + shown(high));
+  }
+
+  // Reports an error at this value and drops it.
+  void fail(const std::string& message, const std::string& help = "", Blame blame = Blame::scene) {
+    slot_.context->diagnostics.error(slot_.place, message, help, blame);
+    value_.reset();
+  }
+
+  T required(T stand_in = {}) {  // absent: error
+    if (!slot_.given) slot_.report_missing();
+    return value_.value_or(std::move(stand_in));
+  }
+  T otherwise(T fallback) const { return value_.value_or(std::move(fallback)); }
+  const std::optional<T>& optional() const { return value_; }
+  bool given() const { return slot_.given; }  // named in the scene, though perhaps with an error
+  Place place() const { return slot_.place; }
+
+ private:
+  Slot slot_;
+  std::optional<T> value_;
+};
+
+class Table {
+ public:
+  Table(Context& context, toml::table* table, std::string path, Place place);
+  Table(const Table&) = delete;
+  Table& operator=(const Table&) = delete;
+  ~Table();  // reports unknown and missing keys
+
+  // Scalars. `unit` is only for messages.
+  Value<double> number(const std::string& key, const std::string& unit = "");
+  Value<int> integer(const std::string& key);
+  Value<bool> boolean(const std::string& key);
+  Value<std::string> text(const std::string& key);
+  template <class E>
+  Value<E> choice(const std::string& key, const std::vector<std::pair<std::string, E>>& choices);
+
+  // Shapes.
+  Value<std::vector<double>> numbers(const std::string& key, const std::string& what = "numbers");
+  Value<Point> point(const std::string& key, int dimension = 2);  // [x, y]; 1-D: x or [x]
+  Value<std::vector<Point>> points(const std::string& key);       // [[x, y], ...]
+  Value<Function> function(const std::string& key);               // a number or an expression in x and y
+  Value<std::array<Function, 2>> velocity(const std::string& key, int dimension);
+  Value<std::string> file(const std::string& key);                // absolute path of an existing file
+
+  // Tables inside this one.
+  Table table(const std::string& key);                // absent: a table without keys, given() is false
+  std::size_t size_of(const std::string& key);        // of an array of tables, 0 if absent
+  Table element(const std::string& key, std::size_t i);
+
+  bool has(const std::string& key) const { return table_ && table_->contains(key); }
+  bool has_text(const std::string& key) const { return has(key) && table_->get(key)->is_string(); }
+  bool has_number(const std::string& key) const { return has(key) && table_->get(key)->is_number(); }
+  bool has_table(const std::string& key) const { return has(key) && table_->get(key)->is_table(); }
+  // The one key of these that is named; two of them, or none where one is required, are an error and give "".
+  std::string one_of(const std::vector<std::string>& keys, bool required);
+
+  void accept_rest();  // makes every key known: after an error that leaves open which ones belong here
+
+  bool given() const { return table_ != nullptr; }
+  Place place() const { return place_; }
+  Place place_of(const std::string& key) const;  // of the value; of the table where the key is absent
+  Place key_place(const std::string& key) const;
+  std::string path_of(const std::string& key) const { return path_.empty() ? key : path_ + '.' + key; }
+  Context& context() const { return context_; }
+  void error(const std::string& key, const std::string& message, const std::string& help = "",
+             Blame blame = Blame::scene) const;
+
+ private:
+  toml::node* find(const std::string& key);  // makes the key known
+  Slot slot(const std::string& key, const std::string& hint = "");
+  template <class T>
+  Value<T> value(const std::string& key, std::optional<T> found, const std::string& hint = "") {
+    return Value<T>(slot(key, hint), std::move(found));
+  }
+  void wrong_type(const std::string& key, const toml::node& node, const std::string& wanted) const;
+  Place place_from(const toml::source_region& region) const;
+  std::optional<Function> compiled(const toml::node& node, const std::string& path);
+  Value<std::string> word(const std::string& key, const std::vector<std::string>& words);
+
+  Context& context_;
+  toml::table* table_;
+  std::string path_;
+  Place place_;
+  std::vector<std::string> known_;
+  struct Missing {
+    std::string key, hint;
+  };
+  std::vector<Missing> missing_;
+};
+
+template <class E>
+Value<E> Table::choice(const std::string& key, const std::vector<std::pair<std::string, E>>& choices) {
+  std::vector<std::string> words;
+  for (const auto& choice : choices) words.push_back(choice.first);
+  const std::optional<std::string> found = word(key, words).optional();
+  std::optional<E> chosen;
+  for (const auto& choice : choices) {
+    if (found && choice.first == *found) chosen = choice.second;
+  }
+  return value<E>(key, chosen, listed(words));
+}
+
+}  // namespace freshet::input

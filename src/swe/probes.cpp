@@ -1,0 +1,120 @@
+// What the run loop asks of the solver's state: totals, point samples, run-up, restart scalars.
+#include <cmath>
+
+#include "cellgrid/sums.hpp"
+#include "src/errors.hpp"
+#include "src/swe/solver.hpp"
+
+namespace freshet::swe {
+namespace {
+
+template <int D>
+Vec<double, D> to_vec(const Point& p) {
+  Vec<double, D> v;
+  v.x = p[0];
+  if constexpr (D == 2) v.y = p[1];
+  return v;
+}
+
+// Calls visit(j) for the fluid particles in the runs around a point. The views are read on the host.
+template <int D, class Visit>
+void for_each_fluid_near(const Rows& rows, const Field<int>& kind, const Point& at, double distance, const Visit& visit) {
+  const double y = D == 2 ? at[1] : 0.0;
+  rows.for_each_run(at[0], at[0], y, y, distance, [&](int begin, int end) {
+    for (int j = begin; j < end; ++j)
+      if (kind.extent(0) == 0 || kind(j) == 0) visit(j);
+  });
+}
+
+}  // namespace
+
+template <int D>
+Totals Solver<D>::totals() const {
+  Totals totals;
+  const Particles<D> p = const_cast<Solver*>(this)->bind();
+  const Field<int> kinds = const_cast<Solver*>(this)->kind();
+  const bool open = !boundaries_.empty();
+  const int n = particles_.size();
+  totals.mass = ordered_sum<1>("swe::mass", n, KOKKOS_LAMBDA(int i) {
+    return Kokkos::Array<double, 1>{open && kinds(i) != 0 ? 0.0 : p.m(i)};
+  })[0];
+  for (const auto& boundary : boundaries_) {
+    const OpenFlow& flow = boundary.flow();
+    totals.inflow += flow.inflow;
+    totals.outflow += flow.outflow;
+    totals.flux += flow.flux;
+    totals.flux_gross += flow.flux_gross;
+    totals.straddle += flow.straddle0 - boundary.straddling(p, kinds, n);
+  }
+  return totals;
+}
+
+template <int D>
+std::vector<PointState> Solver<D>::sample(const std::vector<Point>& points) const {
+  const Particles<D> p = const_cast<Solver*>(this)->bind();
+  const Field<int> kinds = const_cast<Solver*>(this)->kind();
+  std::vector<PointState> states(points.size());
+  for (size_t k = 0; k < points.size(); ++k) {
+    const Vec<double, D> at_point = to_vec<D>(points[k]);
+    const double y = D == 2 ? points[k][1] : 0.0;
+    const double far = Kernel<D>::support * order_.rows().largest_h(points[k][0], points[k][0], y, y);
+    double weight = 0, depth = 0;
+    for_each_fluid_near<D>(order_.rows(), kinds, points[k], far, [&](int j) {
+      const Vec<double, D> d = at(p.x, j) - at_point;
+      const double w = p.m(j) / p.rho(j) * power<D>(p.inv_h(j)) * Kernel<D>::at(root(dot(d, d)) * p.inv_h(j)).w;
+      weight += w;
+      depth += w * p.rho(j);
+    });
+    states[k] = {bed_ ? bed_->spline.at(at_point).b : 0.0, weight > 0 ? depth / weight : 0.0, weight > 0};
+  }
+  return states;
+}
+
+template <int D>
+double Solver<D>::highest_wet_bed(const Point& point, double radius, double min_depth) const {
+  const Particles<D> p = const_cast<Solver*>(this)->bind();
+  const Field<int> kinds = const_cast<Solver*>(this)->kind();
+  const Vec<double, D> centre = to_vec<D>(point);
+  double highest = -1e300;
+  for_each_fluid_near<D>(order_.rows(), kinds, point, radius, [&](int j) {
+    const Vec<double, D> d = at(p.x, j) - centre;
+    if (p.rho(j) >= min_depth && dot(d, d) <= radius * radius) highest = larger(highest, bed_ ? bed_->level(j) : 0.0);
+  });
+  return highest;
+}
+
+template <int D>
+std::vector<std::string> Solver<D>::features() const {
+  std::vector<std::string> names{"cubic spline", "density Newton", gradient_ ? "velocity gradient (MUSCL)" : "no reconstruction"};
+  if (stabilise_.index() != 0) names.push_back("Lax-Friedrichs");
+  if (bed_) names.push_back(bed_->variational ? "bed, variational acceleration" : "bed, classical acceleration");
+  if (friction_) names.push_back("Manning friction");
+  if (walls_) names.push_back("walls (MVBP), " + std::to_string(walls_->points()) + " points");
+  if (!boundaries_.empty()) names.push_back("open boundaries: " + std::to_string(boundaries_.size()));
+  return names;
+}
+
+template <int D>
+ScalarState Solver<D>::scalars() const {
+  ScalarState state{{"crossing_time", {crossing_time_}}, {"next_id", {static_cast<double>(next_id_)}},
+                    {"rebuilds", {static_cast<double>(report_.rebuilds)}}};
+  for (size_t k = 0; k < boundaries_.size(); ++k) state["boundary." + std::to_string(k)] = boundaries_[k].save();
+  return state;
+}
+
+template <int D>
+void Solver<D>::restore(const ScalarState& state) {
+  crossing_time_ = state.at("crossing_time")[0];
+  next_id_ = static_cast<int>(state.at("next_id")[0]);
+  report_.rebuilds = static_cast<long>(state.at("rebuilds")[0]);
+  for (size_t k = 0; k < boundaries_.size(); ++k) boundaries_[k].restore(state.at("boundary." + std::to_string(k)));
+  const Particles<D> p = bind();
+  Kokkos::parallel_for("swe::restore", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) { p.inv_h(i) = 1.0 / p.h(i); });
+  order_.sort(particles_);
+  order_.measure_reach(particles_, bind().h, Kernel<D>::support * (1 + list_margin));
+}
+
+template class Solver<1>;
+template class Solver<2>;
+
+}  // namespace freshet::swe

@@ -1,0 +1,169 @@
+// From a scene to the solver's state: bed, walls, boundaries, particles, reference density.
+#include <cmath>
+
+#include "src/errors.hpp"
+#include "src/scene/place.hpp"
+#include "src/swe/solver.hpp"
+
+namespace freshet::swe {
+namespace {
+
+// The views of all fields, made on the first call.
+void bind_vectors(FieldSet& f, Particles<1>& p) {
+  p.x = {f.real("x", "m", Carry::state)};
+  p.v = {f.real("u", "m/s", Carry::state)};
+  p.v_pred = {f.real("u_pred", "m/s", Carry::sort)};
+  p.a = {f.real("ax", "m/s2", Carry::result)};
+  p.t = {f.real("tx", "m/s2")};
+}
+void bind_vectors(FieldSet& f, Particles<2>& p) {
+  p.x = {f.real("x", "m", Carry::state), f.real("y", "m", Carry::state)};
+  p.v = {f.real("u", "m/s", Carry::state), f.real("v", "m/s", Carry::state)};
+  p.v_pred = {f.real("u_pred", "m/s", Carry::sort), f.real("v_pred", "m/s", Carry::sort)};
+  p.a = {f.real("ax", "m/s2", Carry::result), f.real("ay", "m/s2", Carry::result)};
+  p.t = {f.real("tx", "m/s2"), f.real("ty", "m/s2")};
+}
+void bind_strain(FieldSet& f, Particles<1>& p) { p.strain = {f.real("strain_xx", "1/s")}; }
+void bind_strain(FieldSet& f, Particles<2>& p) {
+  p.strain = {f.real("strain_xx", "1/s"), f.real("strain_xy", "1/s"), f.real("strain_yy", "1/s")};
+}
+
+template <class F>
+void set_field(const Field<double>& field, const std::vector<Placed>& particles, const F& value) {
+  auto host = Kokkos::create_mirror_view(field);
+  for (size_t i = 0; i < particles.size(); ++i) host(i) = value(particles[i]);
+  Kokkos::deep_copy(field, host);
+}
+
+OpenLine<1> open_line(const std::array<Point, 2>& line, Vec<double, 1>) {
+  return {{line[0][0]}, {line[0][1] > line[1][1] ? 1.0 : -1.0}, {0.0}, 1.0};
+}
+OpenLine<2> open_line(const std::array<Point, 2>& line, Vec<double, 2>) {
+  const double tx = line[1][0] - line[0][0], ty = line[1][1] - line[0][1], length = std::hypot(tx, ty);
+  return {{line[0][0], line[0][1]}, {-ty / length, tx / length}, {tx / length, ty / length}, length};
+}
+
+// A wall that ends on an open line goes on beside its buffer.
+void extend_past(std::vector<Point>& wall, const std::vector<freshet::OpenBoundary>& boundaries, double by) {
+  const auto extend = [&](Point& end, const Point& before) {
+    for (const auto& boundary : boundaries)
+      for (const Point& corner : boundary.line) {
+        if (std::hypot(end[0] - corner[0], end[1] - corner[1]) > 1e-3 * by) continue;
+        const double length = std::hypot(end[0] - before[0], end[1] - before[1]);
+        for (int k = 0; k < 2; ++k) end[k] += by * (end[k] - before[k]) / length;
+        return;
+      }
+  };
+  if (wall.size() < 2) return;
+  extend(wall.front(), wall[1]);
+  extend(wall.back(), wall[wall.size() - 2]);
+}
+
+}  // namespace
+
+template <int D>
+void Solver<D>::build_bed() {
+  if (!scene_.bed.elevation) return;
+  const double spacing = scene_.bed.spacing > 0 ? scene_.bed.spacing : scene_.water.spacing;
+  bed_ = Bed<D>{BedSpline<D>(scene_.bed.elevation, {scene_.domain.low, scene_.domain.high, spacing, scene_.bed.filter}),
+                scene_.sph.acceleration == Acceleration::variational, {}};
+}
+
+template <int D>
+void Solver<D>::build_boundaries() {
+  for (const auto& b : scene_.boundaries)
+    boundaries_.emplace_back(open_line(b.line, Vec<double, D>{}),
+                             b.kind == freshet::OpenBoundary::Kind::wave ? OpenKind::wave : OpenKind::elevation,
+                             [series = b.level](double t) { return series.at(t); }, scene_.water.spacing, scene_.sph.eta,
+                             scene_.gravity);
+}
+
+template <int D>
+void Solver<D>::build_walls() {
+  if (scene_.walls.empty()) return;
+  std::vector<std::vector<Point>> lines;
+  for (const Wall& wall : scene_.walls) {
+    lines.push_back(wall.line);
+    if (D == 2) extend_past(lines.back(), scene_.boundaries, 8 * scene_.water.spacing);
+  }
+  const Point middle{0.5 * (scene_.domain.low[0] + scene_.domain.high[0]), 0.5 * (scene_.domain.low[1] + scene_.domain.high[1])};
+  walls_.emplace(lines, scene_.water.spacing, middle);
+}
+
+template <int D>
+void Solver<D>::place_particles() {
+  Function depth = scene_.water.depth;
+  if (scene_.water.surface)  // over the bed as the particles feel it: filtered and tabulated
+    depth = [this](double x, double y) {
+      Vec<double, D> at;
+      at.x = x;
+      if constexpr (D == 2) at.y = y;
+      return scene_.water.surface(x, y) - (bed_ ? bed_->spline.at(at).b : 0.0);
+    };
+  const std::vector<Placed> placed = place(scene_, depth);
+  particles_ = FieldSet(static_cast<int>(placed.size()));
+  const Particles<D> p = bind();
+  const auto fill = [&](const Field<double>& field, const auto& value) { set_field(field, placed, value); };
+  fill(p.x.x, [](const Placed& q) { return q.x[0]; });
+  fill(p.v.x, [](const Placed& q) { return q.velocity[0]; });
+  fill(p.v_pred.x, [](const Placed& q) { return q.velocity[0]; });
+  if constexpr (D == 2) {
+    fill(p.x.y, [](const Placed& q) { return q.x[1]; });
+    fill(p.v.y, [](const Placed& q) { return q.velocity[1]; });
+    fill(p.v_pred.y, [](const Placed& q) { return q.velocity[1]; });
+  }
+  fill(p.m, [](const Placed& q) { return q.depth * q.area; });
+  fill(p.rho, [](const Placed& q) { return q.depth; });
+  fill(p.h, [](const Placed& q) { return q.h0; });
+  fill(p.h0, [](const Placed& q) { return q.h0; });
+  fill(p.kh, [](const Placed& q) { return q.depth * power<D>(q.h0); });
+  const Field<int> id = p.id;
+  Kokkos::parallel_for("swe::number", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) { id(i) = i; });
+  next_id_ = particles_.size();
+}
+
+// rho0 = sum m W(h0), so that the start is at rest in the particles' own density and light shoreline particles among heavy
+// neighbours do not start with a tiny h.
+template <int D>
+void Solver<D>::sum_initial_density() {
+  const DensityOptions once{scene_.gravity, 1e300, list_margin, {1.0, 1.0}, gradient_, !boundaries_.empty()};
+  solve_density<D>(clusters_, neighbours_.view(), wall_view(), bind(), kind(), once);
+  const Particles<D> p = bind();
+  Kokkos::parallel_for("swe::reference_density", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) {
+        p.kh(i) = p.rho(i) * power<D>(p.h0(i));
+        p.h(i) = p.h0(i);
+      });
+}
+
+template <int D>
+Particles<D> Solver<D>::bind() {
+  FieldSet& f = particles_;
+  Particles<D> p;
+  bind_vectors(f, p);
+  p.m = f.real("mass", D == 1 ? "m2" : "m3", Carry::state);
+  p.h0 = f.real("h0", "m", Carry::state);
+  p.kh = f.real("kh", D == 1 ? "m2" : "m3", Carry::state);
+  p.rho = f.real("depth", "m", Carry::state);
+  p.h = f.real("h", "m", Carry::state);
+  p.rate = f.real("depth_rate", "m/s", Carry::result);
+  p.inv_h = f.real("inv_h", "1/m");
+  p.pressure = f.real("pressure", "m/s2");
+  p.celerity = f.real("celerity", "m/s");
+  p.weight = f.real("weight", "1");
+  p.signal = f.real("signal", "m/s");
+  p.id = f.integer("id", "1", Carry::state);
+  if (gradient_) bind_strain(f, p);
+  if (bed_) bed_->level = f.real("bed", "m", Carry::result);
+  if (friction_) f.real("drag", "1/m", Carry::result);
+  return p;
+}
+
+template <int D>
+Field<int> Solver<D>::kind() {
+  return boundaries_.empty() ? Field<int>() : particles_.integer("kind", "1", Carry::state);
+}
+
+template class Solver<1>;
+template class Solver<2>;
+
+}  // namespace freshet::swe

@@ -1,0 +1,65 @@
+// Explicit SPH for the shallow water equations (Vacondio 2010, ch. 1-4): the recipe of one step.
+#pragma once
+#include <memory>
+#include <optional>
+
+#include "kernels/swe/density.hpp"
+#include "kernels/swe/internal_force.hpp"
+#include "kernels/swe/motion.hpp"
+#include "kernels/swe/open_boundary.hpp"
+#include "src/method.hpp"
+
+namespace freshet::swe {
+
+constexpr double list_margin = 0.05;  // growth of h within a step that the neighbour list covers; more makes it again
+
+template <int D>
+class Solver : public Method {
+ public:
+  explicit Solver(const Scene& scene);
+
+  std::string name() const override { return "sph-swe"; }
+  int dimension() const override { return D; }
+  double stable_dt() const override;
+  void step(double t, double dt) override;
+  FieldSet& fields() override { return particles_; }
+  const FieldSet& fields() const override { return particles_; }
+  Totals totals() const override;
+  StepReport report() const override { return report_; }
+  std::vector<PointState> sample(const std::vector<Point>& points) const override;
+  double highest_wet_bed(const Point& at, double radius, double min_depth) const override;
+  std::vector<std::string> features() const override;
+  ScalarState scalars() const override;
+  void restore(const ScalarState& scalars) override;
+
+ private:
+  void build_bed();
+  void build_walls();
+  void build_boundaries();
+  void place_particles();
+  void sum_initial_density();
+  Particles<D> bind();
+  MotionOptions<D> motion();
+  Field<int> kind();
+  void find_neighbours();
+  void close_density();
+  void evaluate(double kick_dt);
+  WallView<D> wall_view() const { return walls_ ? walls_->view() : WallView<D>{}; }
+
+  Scene scene_;
+  FieldSet particles_;
+  RowOrder order_;
+  ClusterSet clusters_;
+  NeighbourList neighbours_;
+  AnyStabilisation stabilise_;
+  bool gradient_ = false;
+  std::optional<Bed<D>> bed_;
+  std::optional<Friction> friction_;
+  std::optional<Walls<D>> walls_;
+  std::vector<OpenBoundary<D>> boundaries_;
+  StepReport report_;
+  double crossing_time_ = 0;  // s, least h / (c + signal)
+  int next_id_ = 0;
+};
+
+}  // namespace freshet::swe
