@@ -1,6 +1,7 @@
 #include "cellgrid/fields.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace freshet {
 namespace {
@@ -22,15 +23,21 @@ void grow(Field<T>& field, int size, int capacity) {
 }
 
 template <class T>
-NamedField<T>* find(std::vector<NamedField<T>>& fields, const std::string& name) {
+const NamedField<T>* find(const std::vector<NamedField<T>>& fields, const std::string& name) {
   const auto found = std::find_if(fields.begin(), fields.end(), [&](const auto& f) { return f.name == name; });
   return found == fields.end() ? nullptr : &*found;
 }
 
 template <class T>
+Field<T> find_made(const std::vector<NamedField<T>>& fields, const std::string& name) {
+  if (const NamedField<T>* known = find(fields, name)) return known->data;
+  throw std::logic_error("no particle field is called '" + name + "'");
+}
+
+template <class T>
 Field<T> find_or_make(std::vector<NamedField<T>>& fields, const std::string& name, const std::string& unit, Carry carry,
                       int capacity) {
-  if (NamedField<T>* known = find(fields, name)) return known->data;
+  if (const NamedField<T>* known = find(fields, name)) return known->data;
   fields.push_back({name, unit, carry, allocate<T>(name, capacity)});
   return fields.back().data;
 }
@@ -68,11 +75,10 @@ Field<int> FieldSet::integer(const std::string& name, const std::string& unit, C
   return find_or_make(integers_, name, unit, carry, capacity_);
 }
 
-bool FieldSet::has(const std::string& name) const {
-  const auto named = [&](const auto& f) { return f.name == name; };
-  return std::any_of(reals_.begin(), reals_.end(), named) ||
-         std::any_of(integers_.begin(), integers_.end(), named);
-}
+Field<double> FieldSet::real(const std::string& name) const { return find_made(reals_, name); }
+Field<int> FieldSet::integer(const std::string& name) const { return find_made(integers_, name); }
+
+bool FieldSet::has(const std::string& name) const { return find(reals_, name) || find(integers_, name); }
 
 void FieldSet::permute(const Input<int>& order, int size) {
   permute_all(reals_, spare_real_, order, size, capacity_);

@@ -35,9 +35,13 @@ class FieldSet {
   // allocation that a step may cause). Views obtained before a growth are stale: ask again.
   void resize(int size);
 
-  // The field of that name, zero-filled and created on first use; unit and carry are taken from the first request.
-  Field<double> real(const std::string& name, const std::string& unit = "1", Carry carry = Carry::no);
-  Field<int> integer(const std::string& name, const std::string& unit = "1", Carry carry = Carry::no);
+  // Makes the field of that name, zero-filled; where it exists already that one is returned.
+  Field<double> real(const std::string& name, const std::string& unit, Carry carry);
+  Field<int> integer(const std::string& name, const std::string& unit, Carry carry);
+
+  // The field of that name; throws std::logic_error if nobody made it.
+  Field<double> real(const std::string& name) const;
+  Field<int> integer(const std::string& name) const;
 
   bool has(const std::string& name) const;
 

@@ -142,6 +142,10 @@ using Lane = pack<double, lanes>;
 KOKKOS_FORCEINLINE_FUNCTION Lane root(Lane a) { return sqrt(a); }
 #endif
 
+// Added to r^2 so that a particle's pair with itself has a finite 1/r (and no effect, since x_ij = 0). Large enough that
+// rsqrt's intermediate squares stay finite when r^2 is multiplied by small densities squared.
+inline constexpr double tiny_square = 1e-200;
+
 template <class V>
 KOKKOS_FORCEINLINE_FUNCTION V clamp(V value, V low, V high) {
   return smaller(larger(value, low), high);

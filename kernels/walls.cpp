@@ -14,7 +14,7 @@ struct WallPoint {
 };
 
 WallSegment segment_between(const std::array<double, 2>& a, const std::array<double, 2>& b) {
-  WallSegment s{{a[0], a[1]}, {b[0], b[1]}, {}, {}, std::hypot(b[0] - a[0], b[1] - a[1])};
+  WallSegment s{{a[0], a[1]}, {b[0], b[1]}, {}, {}, std::hypot(b[0] - a[0], b[1] - a[1]), 0, 0};
   for (int k = 0; k < 2; ++k) s.tangent[k] = (s.b[k] - s.a[k]) / s.length;
   s.normal[0] = -s.tangent[1];
   s.normal[1] = s.tangent[0];
@@ -40,22 +40,24 @@ WallPoint face_point(const WallSegment& s, double along) {
 
 bool same(const double* a, const double* b, double tolerance) { return std::hypot(a[0] - b[0], a[1] - b[1]) < tolerance; }
 
-// The two extra points of a corner of at most 180 degrees: each wall goes on by half a spacing.
-void extend_corner(const WallSegment& s, const WallSegment& t, double step, std::vector<WallPoint>& points) {
+// A corner of less than 180 degrees: each wall goes on by half a spacing (the two extra points), and behind it both walls
+// catch what slips through.
+void extend_corner(WallSegment& s, WallSegment& t, double step, std::vector<WallPoint>& points) {
   const double turn = s.tangent[0] * t.tangent[1] - s.tangent[1] * t.tangent[0];
   if (turn <= 1e-9) return;
   points.push_back(face_point(s, s.length + step));
   points.push_back(face_point(t, -step));
+  s.after = t.before = 4 * step;
 }
 
-void sample_chain(const std::vector<WallSegment>& chain, bool closed, double spacing, std::vector<WallPoint>& points) {
+void sample_chain(std::vector<WallSegment>& chain, bool closed, double spacing, std::vector<WallPoint>& points) {
   const size_t n = chain.size();
   for (size_t k = 0; k < n; ++k) {
-    const WallSegment& s = chain[k];
+    WallSegment& s = chain[k];
     const int steps = std::max(1, static_cast<int>(std::lround(2 * s.length / spacing)));
     for (int i = 1; i < steps; ++i) points.push_back(face_point(s, s.length * i / steps));
     if (k + 1 < n || closed) {
-      const WallSegment& next = chain[(k + 1) % n];
+      WallSegment& next = chain[(k + 1) % n];
       points.push_back(corner_point(s.b, s, next));
       extend_corner(s, next, s.length / steps, points);
     } else {
@@ -87,7 +89,7 @@ Geometry lay_ends(const std::vector<Line>& lines, double inside) {
   for (const Line& line : lines) {
     const double x = line.front()[0], side = inside > x ? 1.0 : -1.0;
     g.points.push_back({{x, 0}, {1, 0, 0}});
-    g.segments.push_back({{x, 0}, {x, 0}, {0, 0}, {side, 0}, 0});
+    g.segments.push_back({{x, 0}, {x, 0}, {0, 0}, {side, 0}, 0, 0, 0});
   }
   return g;
 }
@@ -117,7 +119,7 @@ Walls<D>::Walls(const std::vector<Line>& lines, double spacing, const std::array
   const Field<int> id = points_.integer("id", "1", Carry::sort);
   Kokkos::parallel_for("walls::number", Range(0, points_.size()), KOKKOS_LAMBDA(int k) { id(k) = k; });
   order_.sort(points_);
-  order_.measure_reach(points_, points_.real("h", "m"), 1.0);
+  order_.measure_reach(points_, points_.real("h", "m", Carry::no), 1.0);
   segments_ = Kokkos::View<WallSegment*, Memory>("walls.segments", g.segments.size());
   auto host = Kokkos::create_mirror_view(segments_);
   for (size_t k = 0; k < g.segments.size(); ++k) host(k) = g.segments[k];
@@ -126,11 +128,13 @@ Walls<D>::Walls(const std::vector<Line>& lines, double spacing, const std::array
 
 template <int D>
 WallView<D> Walls<D>::view() const {
-  FieldSet points = points_;
   if constexpr (D == 1)
-    return {true, {points.real("x")}, {points.real("pxx")}, near_.view()};
+    return {true, {points_.real("x")}, {points_.real("pxx")}, near_.view()};
   else
-    return {true, {points.real("x"), points.real("y")}, {points.real("pxx"), points.real("pxy"), points.real("pyy")}, near_.view()};
+    return {true,
+            {points_.real("x"), points_.real("y")},
+            {points_.real("pxx"), points_.real("pxy"), points_.real("pyy")},
+            near_.view()};
 }
 
 template <int D>
@@ -157,7 +161,7 @@ void Walls<D>::reflect(const VecField<double, D>& x, const VecField<double, D>& 
             along = from_a.x * s.tangent[0] + from_a.y * s.tangent[1];
           }
           const double inside = dot(from_a, normal);
-          if (inside >= 0 || inside < -deepest || along < 0 || along > s.length) continue;
+          if (inside >= 0 || inside < -deepest || along < -s.before || along > s.length + s.after) continue;
           put(x, i, p + (-2.0 * inside) * normal);
           for (const VecField<double, D>& velocity : {v, v_pred}) {
             const Vec<double, D> w = at(velocity, i);

@@ -16,6 +16,7 @@ struct WallSegment {
   double tangent[2];     // unit
   double normal[2];      // unit, towards the water
   double length;         // m
+  double before, after;  // m, how far beyond a and b it still catches particles: behind corners of less than 180 degrees
 };
 
 template <int D>
@@ -37,7 +38,7 @@ struct WallSums {
 template <class K, class V, int D>
 KOKKOS_INLINE_FUNCTION void add_wall(const Vec<V, D>& to_wall, const Vec<V, D>& normal_velocity, const V& inv_h, const V& mass,
                                      WallSums<V, D>& sum) {
-  const V r2 = dot(to_wall, to_wall) + 1e-300;
+  const V r2 = dot(to_wall, to_wall) + tiny_square;
   const V inv_r = rsqrt(r2), r = r2 * inv_r;
   const V per_volume = mass * power<D>(inv_h);
   const V closing = dot(to_wall, normal_velocity);

@@ -57,7 +57,7 @@ class Method {
   virtual double highest_wet_bed(const Point& at, double radius, double min_depth) const = 0;
   virtual std::vector<std::string> features() const = 0;  // what this scene switched on, for `check` and the log
 
-  virtual ScalarState scalars() const = 0;                // with fields().reals()/integers() of Carry::state:
+  virtual ScalarState scalars() const = 0;                // with the saved fields (is_saved):
   virtual void restore(const ScalarState& scalars) = 0;   // the whole state. Fields are filled before restore() is called.
 };
 

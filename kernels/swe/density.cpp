@@ -58,7 +58,7 @@ struct Sums {
 // One pair: the density, its derivative and, where wanted, the velocity gradient, all from one 1/r.
 template <bool Gradients, int D>
 KOKKOS_FORCEINLINE_FUNCTION void add_pair(const Vec<Lane, D>& x_ji, const Vec<Lane, D>& v_ji, Lane m, Lane inv_h, Sums<D>& sum) {
-  const Lane r2 = dot(x_ji, x_ji) + 1e-300;
+  const Lane r2 = dot(x_ji, x_ji) + tiny_square;
   const Lane inv_r = rsqrt(r2);
   const auto k = Kernel<D>::at(r2 * inv_r * inv_h);
   sum.density += m * k.w;
@@ -144,7 +144,7 @@ struct SolveDensity {
       bounded = select((wanted < low) | (high < wanted), Lane(1.0), Lane(0.0));
       alpha = moment / (rho * double(D));
       const Lane slope = rho - total + rho * alpha;
-      const Lane newton = select(Lane(0.0) < slope, rho * alpha / larger(slope, 1e-300 + Lane(0.0)), Lane(2.0));
+      const Lane newton = select(Lane(0.0) < slope, rho * alpha / larger(slope, Lane(1e-300)), Lane(2.0));
       const Lane factor = select(Lane(0.5) < bounded, total / rho, newton);
       const Lane residual = free * larger(rho - total, total - rho) / rho;
       rho = select(Lane(0.5) < imposed, imposed_rho, rho * clamp(factor, Lane(0.5), Lane(2.0)));

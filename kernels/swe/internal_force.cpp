@@ -33,7 +33,7 @@ struct InternalForce {
 
   KOKKOS_FORCEINLINE_FUNCTION void add_pair(const Here<D>& i, int j, ForceSums<D>& sum) const {
     const Vec<Lane, D> x_ij = i.x - broadcast(at(p.x, j)), v_ij = i.v - broadcast(at(p.v_pred, j));
-    const Lane r2 = dot(x_ij, x_ij) + 1e-300, rho_sum = i.rho + p.rho(j);
+    const Lane r2 = dot(x_ij, x_ij) + tiny_square, rho_sum = i.rho + p.rho(j);
     const Lane inv = rsqrt(rho_sum * rho_sum * r2);  // 1 / ((rho_i + rho_j) r)
     const Lane inv_r = inv * rho_sum, r = r2 * inv_r;
     const Lane q_i = r * i.inv_h, q_j = r * p.inv_h(j);
@@ -57,7 +57,7 @@ struct InternalForce {
   // Virtual particles: i's own state and slopes, the normal velocity mirrored.
   KOKKOS_INLINE_FUNCTION void add_wall_point(const Here<D>& i, int k, Lane mass, ForceSums<D>& sum) const {
     const Vec<Lane, D> to_wall = i.x - broadcast(at(walls.x, k)), normal_velocity = broadcast(walls.projector, k) * i.v;
-    const Lane r2 = dot(to_wall, to_wall) + 1e-300, inv_r = rsqrt(r2);
+    const Lane r2 = dot(to_wall, to_wall) + tiny_square, inv_r = rsqrt(r2);
     const Lane closing = 2.0 * dot(to_wall, normal_velocity), slope = quadratic(i.strain, to_wall);
     for (const double s : {2.0, 4.0}) {
       const Lane dw = Kernel<D>::slope(s * r2 * inv_r * i.inv_h);

@@ -36,8 +36,8 @@ template <int D>
 struct MotionOptions {
   double gravity;
   LengthBounds bounds;
-  const std::optional<Bed<D>>& bed;
-  const std::optional<Friction>& friction;
+  std::optional<Bed<D>> bed;
+  std::optional<Friction> friction;
   Field<double> drag;   // 1/m, with friction
   Field<int> kind;      // where `imposed`: particles with kind != 0 move at their imposed velocity
   bool imposed;

@@ -20,7 +20,7 @@ std::uint64_t bytes_of(const FieldSet& fields) {
 template <class T>
 void write_fields(const hdf5::Group& group, const std::vector<NamedField<T>>& fields, int size) {
   for (const auto& field : fields) {
-    if (field.carry != Carry::state) continue;
+    if (!is_saved(field.carry)) continue;
     const auto data = on_host(field.data);
     group.write(field.name, std::vector<T>(data.data(), data.data() + size));
     group.attribute("unit", field.unit, field.name);
@@ -47,7 +47,7 @@ void fill(const Field<T>& field, const std::vector<T>& values) {
 template <class T>
 void require_fields(const hdf5::Group& group, const std::vector<NamedField<T>>& fields, const std::string& path) {
   for (const auto& field : fields) {
-    if (field.carry == Carry::state && !group.has(field.name)) {
+    if (is_saved(field.carry) && !group.has(field.name)) {
       throw IoError(path + ": holds no field " + field.name +
                     "\n  help: another version of the program wrote it; start the run anew");
     }

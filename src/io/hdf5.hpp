@@ -27,7 +27,7 @@ class Handle {
   Close close_ = nullptr;
 };
 
-// A group of a file, and through File its root. Names are relative to the group.
+// A group of a file, and through File its root. Names are relative to the group. Valid while its File lives.
 class Group {
  public:
   Group create(const std::string& name) const;

@@ -12,7 +12,11 @@ constexpr double pi = 3.14159265358979323846;
 class Stoker : public Exact {
  public:
   Stoker(double left, double right, double dam, double gravity)
-      : left_(left), right_(right), dam_(dam), gravity_(gravity), middle_(stoker_middle(left, right, gravity)) {}
+      : left_(left),
+        right_(right),
+        dam_(dam),
+        gravity_(gravity),
+        middle_(stoker_middle(left, right, gravity)) {}
 
   FlowState at(double x, double, double t) const override {
     if (t <= 0) return {x < dam_ ? left_ : right_, 0, 0};
@@ -36,7 +40,8 @@ double bowl_level(const Bowl& bowl, double x, double y) {
   return bowl.depth0 * ((x * x + y * y) / (bowl.radius * bowl.radius) - 1);
 }
 
-// The surface is a plane that turns with w = sqrt(2 g z0) / L; the velocity is the same everywhere (thesis 2.61).
+// The surface is a plane that turns with w = sqrt(2 g z0) / L; the velocity is the same everywhere
+// (thesis 2.61).
 class ThackerPlanar : public Exact {
  public:
   ThackerPlanar(const Bowl& bowl, double xi, double gravity)
@@ -62,7 +67,8 @@ class ThackerRadial : public Exact {
       : bowl_(bowl), a_(amplitude), omega_(std::sqrt(8 * gravity * bowl.depth0) / bowl.radius) {}
 
   FlowState at(double x, double y, double t) const override {
-    const double rx = x - bowl_.x0, ry = y - bowl_.y0, r2 = (rx * rx + ry * ry) / (bowl_.radius * bowl_.radius);
+    const double rx = x - bowl_.x0, ry = y - bowl_.y0,
+                 r2 = (rx * rx + ry * ry) / (bowl_.radius * bowl_.radius);
     const double denominator = 1 - a_ * std::cos(omega_ * t), root = std::sqrt(1 - a_ * a_);
     const double surface =
         bowl_.depth0 * (root / denominator - 1 - r2 * (root * root / (denominator * denominator) - 1));
@@ -90,8 +96,9 @@ class StillWater : public Exact {
 
 }  // namespace
 
-// The depth at which the velocity behind the rarefaction, 2 (c_l - c), equals that behind the shock; the difference
-// falls monotonically from the right depth to the left one, so bisection finds the only root to the last bit.
+// The depth at which the velocity behind the rarefaction, 2 (c_l - c), equals that behind the shock; the
+// difference falls monotonically from the right depth to the left one, so bisection finds the only root to
+// the last bit.
 StokerMiddle stoker_middle(double left_depth, double right_depth, double gravity) {
   const auto behind_rarefaction = [&](double d) {
     return 2 * (std::sqrt(gravity * left_depth) - std::sqrt(gravity * d));

@@ -29,7 +29,7 @@ void print_version();
 struct Case {
   std::string name;     // file name without .toml
   std::string path;
-  std::string comment;  // the file's first comment line without #
+  std::string comment;  // the first clause of the comment that the file begins with
 };
 std::vector<Case> find_cases();  // in ./cases, else in the checkout that the program was built from
 

@@ -17,17 +17,17 @@ namespace freshet {
 namespace fs = std::filesystem;
 namespace {
 
+// The comment block at the head of the file up to the end of its first sentence or clause.
 std::string first_comment(const fs::path& path) {
   std::ifstream file(path);
-  std::string line;
-  while (std::getline(file, line)) {
-    const auto begin = line.find_first_not_of(" \t\r");
-    if (begin == std::string::npos) continue;
-    if (line[begin] != '#') return "";
-    const auto text = line.find_first_not_of("# \t", begin);
-    return text == std::string::npos ? "" : line.substr(text);
+  std::string line, text;
+  while (std::getline(file, line) && line.rfind('#', 0) == 0) {
+    const auto begin = line.find_first_not_of("# \t"), end = line.find_last_not_of(" \t\r");
+    if (begin != std::string::npos) text += (text.empty() ? "" : " ") + line.substr(begin, end - begin + 1);
   }
-  return "";
+  std::size_t length = text.size();
+  for (const char* mark : {" (", ": ", ". ", "; "}) length = std::min(length, text.find(mark));
+  return text.substr(0, length);
 }
 
 double megabytes(const FieldSet& fields) {
@@ -38,16 +38,16 @@ double megabytes(const FieldSet& fields) {
 void print_method(const Scene& scene, const Method& method) {
   const FieldSet& fields = method.fields();
   const int fluid = fluid_count(fields);
-  std::printf("method       %s\n", method.name().c_str());
-  std::printf("particles    %d", fluid);
+  std::printf("method      %s\n", method.name().c_str());
+  std::printf("particles   %d", fluid);
   if (fields.size() > fluid) std::printf(" and %d at open boundaries", fields.size() - fluid);
-  std::printf("\nmemory       %.1f MB in %zu fields; neighbour lists come on top\n", megabytes(fields),
+  std::printf("\nmemory      %.1f MB in %zu fields; neighbour lists come on top\n", megabytes(fields),
               fields.reals().size() + fields.integers().size());
   const double dt = method.stable_dt();
-  std::printf("steps        about %.0f of %.3g s (the first stable step) to t = %g s\n", std::ceil(scene.end_time / dt), dt,
+  std::printf("steps       about %.0f of %.3g s (the first stable step) to t = %g s\n", std::ceil(scene.end_time / dt), dt,
               scene.end_time);
-  std::printf("water        %.9g m3\n", method.totals().mass);
-  for (const auto& feature : method.features()) std::printf("on           %s\n", feature.c_str());
+  std::printf("water       %.9g m3\n", method.totals().mass);
+  for (const auto& feature : method.features()) std::printf("on          %s\n", feature.c_str());
 }
 
 void print_rows(std::FILE* out, const ParticleStep& step) {
@@ -105,7 +105,7 @@ int check_command(const Arguments& arguments, const Parts& parts) {
 }
 
 int list_command(const Arguments&, const Parts&) {
-  for (const auto& one : find_cases()) std::printf("%-20s %s\n", one.name.c_str(), one.comment.c_str());
+  for (const auto& one : find_cases()) std::printf("%-16s %s\n", one.name.c_str(), one.comment.c_str());
   return 0;
 }
 
@@ -116,7 +116,8 @@ int points_command(const Arguments& arguments, const Parts&) {
   if (!fs::exists(path)) throw SceneError(path + " is not there: 'freshet run' writes it");
   const auto steps = list_particle_steps(path);
   if (arguments.has("--list")) {
-    for (const auto& step : steps) std::printf("%d %.9g\n", step.step, step.t);
+    std::printf("step,t [s]\n");
+    for (const auto& step : steps) std::printf("%d,%.9g\n", step.step, step.t);
     return 0;
   }
   const int last = steps.empty() ? 0 : steps.back().step;

@@ -31,7 +31,8 @@ struct FileBed {
 FileOptions read_file_options(Table& bed) {
   FileOptions options;
   options.registration =
-      bed.choice<Registration>("registration", {{"node", Registration::node}, {"cell", Registration::cell}}).optional();
+      bed.choice<Registration>("registration", {{"node", Registration::node}, {"cell", Registration::cell}})
+          .optional();
   const double sign = bed.choice<double>("vertical", {{"up", 1.0}, {"down", -1.0}}).otherwise(1.0);
   options.factor = sign * bed.number("scale").otherwise(1);
   options.offset = bed.number("offset", "m").otherwise(0);
@@ -47,12 +48,14 @@ FileOptions read_file_options(Table& bed) {
 void require_no_file_options(Table& bed) {
   for (const char* key : {"registration", "vertical", "scale", "offset", "nodata"}) {
     if (bed.has(key)) {
-      bed.context().diagnostics.error(bed.key_place(key), "'" + bed.path_of(key) + "' applies to 'bed.file' only");
+      bed.context().diagnostics.error(bed.key_place(key),
+                                      "'" + bed.path_of(key) + "' applies to 'bed.file' only");
     }
   }
 }
 
-FileBed from_raster(Raster raster, const FileOptions& options, const Domain& domain, const std::string& name) {
+FileBed from_raster(Raster raster, const FileOptions& options, const Domain& domain,
+                    const std::string& name) {
   FileBed bed;
   bed.what = std::to_string(raster.nx) + " x " + std::to_string(raster.ny) + " nodes";
   bed.low = {raster.x0, raster.y0};
@@ -64,8 +67,9 @@ FileBed from_raster(Raster raster, const FileOptions& options, const Domain& dom
   const Gaps gaps = find_gaps(*part);
   bed.nodata = gaps.count;
   if (gaps.count > 0 && !options.fill) {
-    throw BadData("'" + name + "' has no value at " + std::to_string(gaps.count) + " nodes near the domain, the first at (" +
-                      shown(gaps.first[0]) + ", " + shown(gaps.first[1]) + ")",
+    throw BadData("'" + name + "' has no value at " + counted(gaps.count, "node") +
+                      " near the domain, the first at (" + rounded(gaps.first[0]) + ", " +
+                      rounded(gaps.first[1]) + ")",
                   "choose a smaller domain, or a level for them: nodata = { fill = 0.0 }");
   }
   for (double& z : part->z) z = std::isnan(z) ? *options.fill : z;
@@ -86,7 +90,7 @@ FileBed from_scatter(std::vector<BedPoint> points, const FileOptions& options, c
     bed.high = {std::max(bed.high[0], p.x), std::max(bed.high[1], p.y)};
   }
   if (bed.nodata > 0 && !options.fill) {
-    throw BadData("'" + name + "' has " + std::to_string(bed.nodata) + " points without a level",
+    throw BadData("'" + name + "' has " + counted(bed.nodata, "point") + " without a level",
                   "remove them, or choose a level for them: nodata = { fill = 0.0 }");
   }
   bed.spacing = bed.reach = mean_spacing(points);
@@ -103,7 +107,8 @@ FileBed load_bed(const std::string& path, const FileOptions& options, const Doma
       section.context().diagnostics.error(
           section.place_of("file"),
           "'" + name + "' has an xllcorner header: say where its values lie, 'bed.registration' is missing",
-          "registration = \"cell\": in the middle of the cells (GIS rasters); \"node\": on the corner itself");
+          "registration = \"cell\": in the middle of the cells (GIS rasters); \"node\": on the corner "
+          "itself");
     }
     return from_raster(std::move(grid.raster), options, domain, name);
   }
@@ -118,11 +123,13 @@ FileBed load_bed(const std::string& path, const FileOptions& options, const Doma
 
 void require_cover(Table& section, const FileBed& file, const std::string& name, const Domain& domain) {
   for (int axis = 0; axis < domain.dimension; ++axis) {
-    if (domain.low[axis] >= file.low[axis] - file.reach && domain.high[axis] <= file.high[axis] + file.reach) continue;
+    if (domain.low[axis] >= file.low[axis] - file.reach && domain.high[axis] <= file.high[axis] + file.reach)
+      continue;
     const std::string letter = axis == 0 ? "x" : "y";
-    section.error("file", "'" + name + "' covers " + letter + " = " + shown(file.low[axis]) + " to " +
-                              shown(file.high[axis]) + " m, the domain " + shown(domain.low[axis]) + " to " +
-                              shown(domain.high[axis]) + " m",
+    section.error("file",
+                  "'" + name + "' covers " + letter + " = " + rounded(file.low[axis]) + " to " +
+                      rounded(file.high[axis]) + " m, the domain " + rounded(domain.low[axis]) + " to " +
+                      rounded(domain.high[axis]) + " m",
                   "make the domain smaller, or check the units and the registration");
     return;
   }
@@ -158,7 +165,8 @@ void read_elevation(Table& section, const std::string& source, Scene& scene) {
   }
 }
 
-// Standard deviation per axis of the cubic spline of smoothing length 1: its second moment is 31/98 in 2-D, 1/3 in 1-D.
+// Standard deviation per axis of the cubic spline of smoothing length 1: its second moment is 31/98 in 2-D,
+// 1/3 in 1-D.
 double kernel_width(int dimension) { return std::sqrt(dimension == 2 ? 31.0 / 98.0 : 1.0 / 3.0); }
 
 void read_filter(Table& section, bool from_file, Scene& scene) {
@@ -178,7 +186,7 @@ void find_range(Table& section, const std::string& source, Scene& scene) {
   const Domain& domain = scene.domain;
   const auto nodes = [&](int axis) {
     const double length = domain.high[axis] - domain.low[axis];
-    return static_cast<int>(std::clamp(length / std::max(scene.bed.spacing, 1e-9 * length), 2.0, 500.0));
+    return static_cast<int>(std::lround(std::clamp(length / scene.bed.spacing, 2.0, 500.0)));
   };
   const int nx = nodes(0), ny = domain.dimension == 2 ? nodes(1) : 0;
   scene.bed.range = {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};

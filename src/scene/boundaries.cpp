@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/scene/series.hpp"
 #include "src/scene/sections.hpp"
+#include "src/scene/series.hpp"
 #include "src/scene/sides.hpp"
 
 namespace freshet::input {
@@ -15,7 +15,8 @@ std::array<Point, 2> side_line(const Domain& domain, SideName side) {
   const Point a = domain.low, b = domain.high;
   if (domain.dimension == 1) {
     const double x = side == SideName::left ? a[0] : b[0];
-    return side == SideName::left ? std::array<Point, 2>{{{x, 1}, {x, 0}}} : std::array<Point, 2>{{{x, 0}, {x, 1}}};
+    return side == SideName::left ? std::array<Point, 2>{{{x, 1}, {x, 0}}}
+                                  : std::array<Point, 2>{{{x, 0}, {x, 1}}};
   }
   switch (side) {
     case SideName::bottom: return {{{a[0], a[1]}, {b[0], a[1]}}};
@@ -26,7 +27,8 @@ std::array<Point, 2> side_line(const Domain& domain, SideName side) {
 }
 
 std::array<Point, 2> read_side(Table& section, const Domain& domain) {
-  std::vector<std::pair<std::string, SideName>> sides = {{"left", SideName::left}, {"right", SideName::right}};
+  std::vector<std::pair<std::string, SideName>> sides = {{"left", SideName::left},
+                                                         {"right", SideName::right}};
   if (domain.dimension == 2) {
     sides.emplace_back("bottom", SideName::bottom);
     sides.emplace_back("top", SideName::top);
@@ -56,7 +58,8 @@ void require_span(Table& section, const Series& series, double end) {
                   "add a row for t = 0", Blame::data);
   }
   if (series.t.back() < end - slack) {
-    section.error("series", "the series ends at t = " + shown(series.t.back()) + " s, the run at " + shown(end) + " s",
+    section.error("series",
+                  "the series ends at t = " + shown(series.t.back()) + " s, the run at " + shown(end) + " s",
                   "lengthen the series or shorten time.end", Blame::data);
   }
 }
@@ -95,7 +98,8 @@ void read_wall(Table& section, Scene& scene) {
   const std::string source = section.one_of({"line", "at"}, true);
   if (source == "at") {
     Value<double> at = section.number("at", "m");
-    if (scene.domain.dimension != 1) at.fail("'wall.at' belongs to 1-D scenes", "write line = [[x, y], [x, y]]");
+    if (scene.domain.dimension != 1)
+      at.fail("'wall.at' belongs to 1-D scenes", "write line = [[x, y], [x, y]]");
     if (!at.optional()) return;
     const Point point{*at.optional(), 0};
     if (require_inside(section, "at", "the wall", point, scene)) scene.walls.push_back({{point}});

@@ -10,15 +10,19 @@ namespace {
 struct Solution {
   std::shared_ptr<const Exact> exact;
   std::string description;
-  double shock_speed = 0;       // m/s, 0 = no shock
-  double shock_cell_ratio = 1;  // depth behind over depth ahead: particles of equal mass lie so much wider ahead
+  double shock_speed = 0;  // m/s, 0 = no shock
+  double shock_cell_ratio =
+      1;  // depth behind over depth ahead: particles of equal mass lie so much wider ahead
 };
 
 Solution read_stoker(Table& table, const Scene& scene) {
   const double left = table.number("left", "m").positive().required(2);
-  const double right = table.number("right", "m").positive().check(
-      [left](double depth) { return depth < left; }, "below 'left' (" + shown(left) + ")",
-      "the deep water of the Stoker solution is on the left").required(1);
+  const double right =
+      table.number("right", "m")
+          .positive()
+          .check([left](double depth) { return depth < left; }, "below 'left' (" + shown(left) + ")",
+                 "the deep water of the Stoker solution is on the left")
+          .required(1);
   const double dam = table.number("dam", "m").required();
   const double speed = right < left ? stoker_middle(left, right, scene.gravity).shock : 0;
   return {stoker(left, right, dam, scene.gravity),
@@ -48,7 +52,8 @@ Solution read_planar(Table& table, const Scene& scene) {
 Solution read_radial(Table& table, const Scene& scene) {
   const Bowl bowl = read_bowl(table, scene);
   const auto inside = [](double a) { return a > 0 && a < 1; };
-  const double amplitude = table.number("amplitude").check(inside, "between 0 and 1, both excluded").required(0.5);
+  const double amplitude =
+      table.number("amplitude").check(inside, "between 0 and 1, both excluded").required(0.5);
   return {thacker_radial(bowl, amplitude, scene.gravity), described(bowl) + ", A = " + shown(amplitude)};
 }
 
@@ -59,10 +64,12 @@ Solution read_rest(Table& table, const Scene& scene) {
 
 Solution read_exact(Table& table, const Scene& scene) {
   using Reader = Solution (*)(Table&, const Scene&);
-  const Reader reader = table.choice<Reader>("type", {{"stoker", read_stoker},
-                                                      {"thacker-planar", read_planar},
-                                                      {"thacker-radial", read_radial},
-                                                      {"rest", read_rest}}).required();
+  const Reader reader = table
+                            .choice<Reader>("type", {{"stoker", read_stoker},
+                                                     {"thacker-planar", read_planar},
+                                                     {"thacker-radial", read_radial},
+                                                     {"rest", read_rest}})
+                            .required();
   if (!reader) {
     table.accept_rest();
     return {};
@@ -72,8 +79,9 @@ Solution read_exact(Table& table, const Scene& scene) {
   return solution;
 }
 
-// A number of seconds, or { shock_cells = n }: the time in which the shock crosses n particles ahead of it. A particle's
-// own error peaks as the shock passes it, so that the error against the exact solution swings with that period.
+// A number of seconds, or { shock_cells = n }: the time in which the shock crosses n particles ahead of it. A
+// particle's own error peaks as the shock passes it, so that the error against the exact solution swings with
+// that period.
 double read_window(Table& section, const Solution& solution, const Scene& scene) {
   if (!section.has_table("window")) return section.number("window", "s").at_least(0).otherwise(0);
   Table window = section.table("window");
@@ -82,7 +90,8 @@ double read_window(Table& section, const Solution& solution, const Scene& scene)
     const bool wider = scene.water.start == Water::Start::equal_mass;
     return cells * scene.water.spacing * (wider ? solution.shock_cell_ratio : 1) / solution.shock_speed;
   }
-  if (solution.exact) window.error("shock_cells", "the exact solution has no shock to take 'shock_cells' from");
+  if (solution.exact)
+    window.error("shock_cells", "the exact solution has no shock to take 'shock_cells' from");
   return 0;
 }
 

@@ -2,20 +2,19 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "src/scene/diagnostics.hpp"
 #include "src/scene/read.hpp"
 
 namespace freshet {
 namespace {
+
+using input::counted;
 
 // Six digits, for people.
 std::string brief(double number) {
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", number);
   return text;
-}
-
-std::string counted(std::size_t count, const std::string& one) {
-  return std::to_string(count) + ' ' + one + (count == 1 ? "" : "s");
 }
 
 std::string extent(const Domain& domain) {
@@ -34,13 +33,15 @@ std::string bed(const Scene& scene) {
   std::string out = bed.description + ", " + brief(bed.range[0]) + " to " + brief(bed.range[1]) + " m";
   if (bed.nodata > 0) out += ", " + counted(bed.nodata, "node") + " without a value filled";
   out += ", lattice " + brief(bed.spacing) + " m";
-  return out + (bed.filter > 0 ? ", smoothed with standard deviation " + brief(bed.filter) + " m" : ", not smoothed");
+  return out + (bed.filter > 0 ? ", smoothed with standard deviation " + brief(bed.filter) + " m"
+                               : ", not smoothed");
 }
 
 std::string water(const Scene& scene) {
   const Water& water = scene.water;
   const bool equal_mass = water.start == Water::Start::equal_mass;
-  std::string out = "spacing " + brief(water.spacing) + (equal_mass ? " m in the deepest water, equal masses" : " m");
+  std::string out =
+      "spacing " + brief(water.spacing) + (equal_mass ? " m in the deepest water, equal masses" : " m");
   if (water.surface) out += ", from its surface";
   return out + (water.velocity[0] ? ", moving" : ", at rest");
 }
@@ -61,12 +62,13 @@ std::string gauge(const Gauge& gauge, const Domain& domain) {
   std::string out = gauge.name + " at " + point(gauge.at, domain);
   if (!gauge.measured) return out;
   const Series& measured = *gauge.measured;
-  return out + ", measured " + counted(measured.t.size(), "row") + ", t " + brief(measured.t.front()) + " to " +
-         brief(measured.t.back()) + " s";
+  return out + ", measured " + counted(measured.t.size(), "row") + ", t " + brief(measured.t.front()) +
+         " to " + brief(measured.t.back()) + " s";
 }
 
 std::string run_up(const RunUp& run_up, const Domain& domain) {
-  std::string out = run_up.name + " at " + point(run_up.at, domain) + ", radius " + brief(run_up.radius) + " m";
+  std::string out =
+      run_up.name + " at " + point(run_up.at, domain) + ", radius " + brief(run_up.radius) + " m";
   if (!run_up.measured) return out;
   return out + ", measured " + brief((*run_up.measured)[0]) + " to " + brief((*run_up.measured)[1]) + " m";
 }
@@ -74,24 +76,28 @@ std::string run_up(const RunUp& run_up, const Domain& domain) {
 std::string numerics(const Scene& scene) {
   const Sph& sph = scene.sph;
   std::string out = scene.method + ", cubic spline, h/dx " + brief(sph.eta) + ", CFL " + brief(scene.cfl);
-  out += sph.stabilisation == Stabilisation::none            ? ", not stabilised"
-         : sph.stabilisation == Stabilisation::lax_friedrichs ? ", Lax-Friedrichs"
-                                                              : ", Lax-Friedrichs with MUSCL";
+  out += sph.stabilisation == Stabilisation::none           ? ", not stabilised"
+       : sph.stabilisation == Stabilisation::lax_friedrichs ? ", Lax-Friedrichs"
+                                                            : ", Lax-Friedrichs with MUSCL";
   if (sph.stabilisation != Stabilisation::none && sph.strength != 1) out += " x " + brief(sph.strength);
-  return out + (sph.acceleration == Acceleration::classical ? ", classical acceleration" : ", variational acceleration");
+  return out + (sph.acceleration == Acceleration::classical ? ", classical acceleration"
+                                                            : ", variational acceleration");
 }
 
 std::string output(const Scene& scene) {
   const Output& output = scene.output;
-  std::string out = output.every > 0 ? "particles every " + brief(output.every) + " s" : "first and last state";
-  if (!scene.gauges.empty() && output.gauges_every > 0) out += ", gauges every " + brief(output.gauges_every) + " s";
+  std::string out =
+      output.every > 0 ? "particles every " + brief(output.every) + " s" : "first and last state";
+  if (!scene.gauges.empty() && output.gauges_every > 0)
+    out += ", gauges every " + brief(output.gauges_every) + " s";
   return out;
 }
 
 std::string compare(const Compare& compare) {
   std::string out = compare.description + ", depths above " + brief(compare.threshold) + " m";
   if (compare.samples == 1) return out;
-  return out + ", median of " + std::to_string(compare.samples) + " times in the last " + brief(compare.window) + " s";
+  return out + ", median of " + std::to_string(compare.samples) + " times in the last " +
+         brief(compare.window) + " s";
 }
 
 }  // namespace

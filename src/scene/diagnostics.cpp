@@ -21,7 +21,8 @@ std::string line_of(const std::string& text, int line) {
   return found;
 }
 
-// Blanks up to the column; tabs stay tabs and a multi-byte character is one column, so that the caret lines up.
+// Blanks up to the column; tabs stay tabs and a multi-byte character is one column, so that the caret lines
+// up.
 std::string indent_to(const std::string& line, int column) {
   std::string indent;
   int at = 1;
@@ -70,7 +71,8 @@ void Diagnostics::error(const Place& place, std::string message, std::string hel
 std::string Diagnostics::format(const Entry& entry) const {
   const Source& source = sources_[entry.place.source];
   std::string out = source.name;
-  if (source.located) out += ':' + std::to_string(entry.place.line) + ':' + std::to_string(entry.place.column);
+  if (source.located)
+    out += ':' + std::to_string(entry.place.line) + ':' + std::to_string(entry.place.column);
   out += ": error: " + entry.message + '\n';
   const std::string line = line_of(source.text, entry.place.line);
   if (!line.empty()) out += "  " + line + "\n  " + indent_to(line, entry.place.column) + "^\n";
@@ -96,11 +98,14 @@ void Diagnostics::throw_if_any() const {
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates) {
   std::string best;
   const int length = static_cast<int>(word.size());
-  int least = std::min(std::max(1, length / 3) + 1, length);
+  const int limit = std::min(std::max(1, length / 3), length - 1);
+  int least = 2 * limit + 2;
   for (const std::string& candidate : candidates) {
     const int distance = edit_distance(plain(word), plain(candidate));
-    if (distance < least) {
-      least = distance;
+    const int rank =
+        2 * distance + (plain(word)[0] == plain(candidate)[0] ? 0 : 1);  // first letters break ties
+    if (distance <= limit && rank < least) {
+      least = rank;
       best = candidate;
     }
   }
@@ -110,6 +115,10 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates) {
   const std::string best = nearest(word, candidates);
   return best.empty() ? "" : "did you mean '" + best + "'?";
+}
+
+std::string counted(std::size_t count, const std::string& one) {
+  return std::to_string(count) + ' ' + one + (count == 1 ? "" : "s");
 }
 
 std::string listed(const std::vector<std::string>& words) {

@@ -1,4 +1,5 @@
-// Errors of meaning, collected so that one run of the reader shows them all, each with its line, a caret and help.
+// Errors of meaning, collected so that one run of the reader shows them all, each with its line, a caret and
+// help.
 #pragma once
 #include <string>
 #include <vector>
@@ -20,11 +21,11 @@ class Diagnostics {
   int add_source(std::string name, std::string text, bool located = true);
 
   void error(const Place& place, std::string message, std::string help = "", Blame blame = Blame::scene);
-  // An error whose message has no place in any source, such as a file that cannot be opened.
   bool any() const { return !entries_.empty(); }
   std::size_t count() const { return entries_.size(); }
 
-  // Throws one SceneError or DataError with the whole text, in the order of the places, if anything was reported.
+  // Throws one SceneError or DataError with the whole text, in the order of the places, if anything was
+  // reported.
   void throw_if_any() const;
 
   std::string name(int source) const { return sources_[source].name; }
@@ -48,9 +49,11 @@ class Diagnostics {
 
 // "did you mean 'spacing'?" where a candidate is close to the word, else "".
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates);
-// The candidate within the fewest edits, at most a third of the word's letters (short words: one, but not all), else "".
-// Swaps of neighbours count once; capitals and - against _ do not count.
+// The candidate within the fewest edits, at most a third of the word's letters (short words: one, but not
+// all), else "". Swaps of neighbours count once; capitals and - against _ do not count.
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
+// "1 row", "2 rows"
+std::string counted(std::size_t count, const std::string& one);
 // 'a', 'b' or 'c'
 std::string listed(const std::vector<std::string>& words);
 

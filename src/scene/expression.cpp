@@ -60,7 +60,8 @@ ExpressionError explained(const mu::Parser& parser, const mu::Parser::exception_
 
 Function compile_expression(const std::string& text, double gravity) {
   const int assignment = position_of_assignment(text);
-  if (assignment >= 0) throw ExpressionError{assignment, "'=' assigns; it cannot stand here", "compare with '=='"};
+  if (assignment >= 0)
+    throw ExpressionError{assignment, "'=' assigns; it cannot stand here", "compare with '=='"};
   const auto expression = std::make_shared<Expression>();
   mu::Parser& parser = expression->parser;
   parser.ClearConst();

@@ -12,9 +12,9 @@ struct ExpressionError {
   std::string message, help;
 };
 
-// Variables x, y; constants pi, g; + - * / ^ ( ), comparisons, && ||, `a ? b : c`, sin cos tan asin acos atan atan2
-// sinh cosh tanh exp ln log10 sqrt abs min max sign rint. Compiled once. The function keeps its own x and y: call it
-// from one thread at a time. Throws ExpressionError.
+// Variables x, y; constants pi, g; + - * / ^ ( ), comparisons, && ||, `a ? b : c`, sin cos tan asin acos atan
+// atan2 sinh cosh tanh exp ln log10 sqrt abs min max sign rint. Compiled once. The function keeps its own x
+// and y: call it from one thread at a time. Throws ExpressionError.
 Function compile_expression(const std::string& text, double gravity);
 
 // Where the character `position` of a TOML string stands, given where the string's opening quote stands.

@@ -12,7 +12,8 @@ namespace fs = std::filesystem;
 namespace {
 
 bool ends_with(const std::string& name, const std::string& ending) {
-  return name.size() >= ending.size() && name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
+  return name.size() >= ending.size() &&
+         name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
 }
 
 void refuse_binary_formats(const std::string& path) {
@@ -61,7 +62,8 @@ FoundFile find_file(const std::string& name, const fs::path& scene_directory) {
     }
   }
   if (fs::path(name).is_absolute()) found.looked.clear();
-  else if (!std::getenv("FRESHET_DATA")) found.looked += "; set FRESHET_DATA to the directory that holds the data";
+  else if (!std::getenv("FRESHET_DATA"))
+    found.looked += "; set FRESHET_DATA to the directory that holds the data";
   return found;
 }
 
@@ -74,6 +76,8 @@ std::string read_text(const std::string& path) {
   if (text.compare(0, 2, "\xFF\xFE") == 0 || text.compare(0, 2, "\xFE\xFF") == 0) {
     throw BadData("'" + file_name(path) + "' is in UTF-16", "save it as UTF-8 or plain ASCII");
   }
+  if (text.find('\n') == std::string::npos)
+    std::replace(text.begin(), text.end(), '\r', '\n');  // old Macintosh
   text.erase(std::remove(text.begin(), text.end(), '\r'), text.end());
   return text;
 }
@@ -104,7 +108,9 @@ bool parse_number(const std::string& cell, double& number) {
 
 std::string file_name(const std::string& path) { return fs::path(path).filename().string(); }
 
-std::string at_line(const std::string& path, int line) { return file_name(path) + ':' + std::to_string(line); }
+std::string at_line(const std::string& path, int line) {
+  return file_name(path) + ':' + std::to_string(line);
+}
 
 bool is_comment_or_empty(const std::string& line) {
   const std::size_t first = line.find_first_not_of(" \t");

@@ -21,7 +21,8 @@ struct FoundFile {
 // Relative names are tried from the scene's directory, then $FRESHET_DATA, the checkout's data/ and ./data.
 FoundFile find_file(const std::string& name, const std::filesystem::path& scene_directory);
 
-// The whole file without byte order mark and carriage returns. Throws BadData: unreadable, compressed, GeoTIFF, NetCDF.
+// The whole file without byte order mark and carriage returns. Throws BadData: unreadable, compressed,
+// GeoTIFF, NetCDF.
 std::string read_text(const std::string& path);
 
 // Calls visit(line number, line) for each line, numbered from 1.
@@ -36,14 +37,14 @@ void for_each_line(const std::string& text, Visit visit) {
   }
 }
 
-// The cells of a line: separated by semicolons, else commas, else tabs, else runs of blanks; trailing separators add
-// no cell.
+// The cells of a line: separated by semicolons, else commas, else tabs, else runs of blanks; trailing
+// separators add no cell.
 std::vector<std::string> split_cells(const std::string& line);
 // True if the whole cell is one finite number.
 bool parse_number(const std::string& cell, double& number);
 
-std::string file_name(const std::string& path);                   // for messages: the last part
-std::string at_line(const std::string& path, int line);           // "wave.txt:7"
-bool is_comment_or_empty(const std::string& line);                // starts with # or has only blanks
+std::string file_name(const std::string& path);          // for messages: the last part
+std::string at_line(const std::string& path, int line);  // "wave.txt:7"
+bool is_comment_or_empty(const std::string& line);       // starts with # or has only blanks
 
 }  // namespace freshet::input

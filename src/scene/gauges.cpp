@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/scene/series.hpp"
 #include "src/scene/sections.hpp"
+#include "src/scene/series.hpp"
 
 namespace freshet::input {
 namespace {
@@ -19,7 +19,8 @@ void require_new_name(Table& section, const std::vector<Station>& stations, cons
 }  // namespace
 
 std::string shown(const Point& point, const Domain& domain) {
-  return domain.dimension == 1 ? "x = " + shown(point[0]) : '(' + shown(point[0]) + ", " + shown(point[1]) + ')';
+  return domain.dimension == 1 ? "x = " + rounded(point[0])
+                               : '(' + rounded(point[0]) + ", " + rounded(point[1]) + ')';
 }
 
 bool require_inside(Table& section, const std::string& key, const std::string& what, const Point& point,
@@ -31,8 +32,9 @@ bool require_inside(Table& section, const std::string& key, const std::string& w
     inside = inside && point[axis] >= domain.low[axis] - slack && point[axis] <= domain.high[axis] + slack;
   }
   if (!inside) {
-    section.error(key, what + " at " + shown(point, domain) + " lies outside the domain",
-                  "the domain reaches from " + shown(domain.low, domain) + " to " + shown(domain.high, domain));
+    section.error(
+        key, what + " at " + shown(point, domain) + " lies outside the domain",
+        "the domain reaches from " + shown(domain.low, domain) + " to " + shown(domain.high, domain));
   }
   return inside;
 }

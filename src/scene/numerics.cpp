@@ -6,8 +6,8 @@ namespace freshet::input {
 
 void read_scene_section(Table& section, Scene& scene) {
   scene.name = section.text("name").otherwise(scene.name);
-  Value<std::string> method = section.choice<std::string>(
-      "method", {{"sph-swe", "sph-swe"}, {"sisph", "sisph"}, {"fpm", "fpm"}});
+  Value<std::string> method =
+      section.choice<std::string>("method", {{"sph-swe", "sph-swe"}, {"sisph", "sisph"}, {"fpm", "fpm"}});
   scene.method = method.otherwise(scene.method);
   if (scene.method != "sph-swe") {
     method.fail("the method '" + scene.method + "' is not built yet", "use method = \"sph-swe\"");
@@ -25,10 +25,12 @@ void read_domain(Table& section, Scene& scene) {
   } else if (b.size() == 2) {
     domain = {1, {b[0], 0}, {b[1], 0}};
   } else {
-    box.fail("'domain.box' has " + std::to_string(b.size()) + " numbers; 2-D: [x0, y0, x1, y1], 1-D: [x0, x1]");
+    box.fail("'domain.box' has " + std::to_string(b.size()) +
+             " numbers; 2-D: [x0, y0, x1, y1], 1-D: [x0, x1]");
     return;
   }
-  const bool ordered = domain.low[0] < domain.high[0] && (domain.dimension == 1 || domain.low[1] < domain.high[1]);
+  const bool ordered =
+      domain.low[0] < domain.high[0] && (domain.dimension == 1 || domain.low[1] < domain.high[1]);
   if (!ordered) box.fail("'domain.box' must have its low corner first");
   if (!ordered) domain = {2, {0, 0}, {1, 1}};
 }
@@ -43,15 +45,19 @@ bool read_sph(Table& section, Scene& scene) {
   if (!stabilised && muscl.otherwise(false)) {
     muscl.fail("'sph.muscl' reconstructs for a stabilisation, and 'sph.stabilise' is 'none'");
   }
-  sph.stabilisation = !stabilised              ? Stabilisation::none
-                      : muscl.otherwise(true) ? Stabilisation::lax_friedrichs_muscl
-                                              : Stabilisation::lax_friedrichs;
+  sph.stabilisation = !stabilised           ? Stabilisation::none
+                    : muscl.otherwise(true) ? Stabilisation::lax_friedrichs_muscl
+                                            : Stabilisation::lax_friedrichs;
   sph.strength = section.number("strength").at_least(0).otherwise(sph.strength);
-  sph.newton_tolerance = section.number("newton_tolerance").within(1e-14, 0.1).otherwise(sph.newton_tolerance);
+  sph.newton_tolerance =
+      section.number("newton_tolerance").within(1e-14, 0.1).otherwise(sph.newton_tolerance);
   sph.h_floor = section.number("h_floor").within(0, 1).otherwise(sph.h_floor);
   sph.h_cap = section.number("h_cap").at_least(1).otherwise(sph.h_cap);
-  const auto acceleration = section.choice<Acceleration>(
-      "acceleration", {{"classical", Acceleration::classical}, {"variational", Acceleration::variational}}).optional();
+  const auto acceleration =
+      section
+          .choice<Acceleration>("acceleration", {{"classical", Acceleration::classical},
+                                                 {"variational", Acceleration::variational}})
+          .optional();
   sph.acceleration = acceleration.value_or(sph.acceleration);
   return acceleration.has_value();
 }
@@ -72,19 +78,25 @@ std::optional<double> read_duration(Table& section, const std::string& key, cons
 void read_time(Table& section, const ComparePlan& compare, Scene& scene) {
   const auto end = read_duration(section, "end", scene);
   if (!section.has("end")) section.number("end", "s").required();
-  if (end && *end == 0 && section.has_number("end")) section.error("end", "'time.end' is 0; it must be positive");
+  if (end && *end == 0 && section.has_number("end"))
+    section.error("end", "'time.end' is 0; it must be positive");
   scene.end_time = end.value_or(0) + (compare.around_end ? 0.5 * compare.window : 0.0);
   if (end && compare.window > scene.end_time) {
-    section.error("end", "the run ends before the comparison window of " + shown(compare.window) + " s is over");
+    section.error("end",
+                  "the run ends before the comparison window of " + shown(compare.window) + " s is over");
   }
-  scene.cfl = section.number("cfl").positive().check([](double cfl) { return cfl <= 2; }, "at most 2").otherwise(scene.cfl);
+  scene.cfl = section.number("cfl")
+                  .positive()
+                  .check([](double cfl) { return cfl <= 2; }, "at most 2")
+                  .otherwise(scene.cfl);
 }
 
 void read_output(Table& section, Scene& scene) {
   Output& output = scene.output;
   output.every = read_duration(section, "every", scene).value_or(output.every);
   output.gauges_every = read_duration(section, "gauges_every", scene).value_or(output.gauges_every);
-  output.checkpoint_every = section.number("checkpoint_every", "s").at_least(0).otherwise(output.checkpoint_every);
+  output.checkpoint_every =
+      section.number("checkpoint_every", "s").at_least(0).otherwise(output.checkpoint_every);
 }
 
 void read_limits(Table& section, Scene& scene) {

@@ -9,13 +9,14 @@ Place place_from(const toml::source_region& region, int source) {
   return {source, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
 }
 
-// `bed.z=0.1*x` and `scene.name=trial` are not TOML: their value stands for a string. A value that begins like an array,
-// table or string is taken at its word, so that its mistakes show.
+// `bed.z=0.1*x` and `scene.name=trial` are not TOML: their value stands for a string. A value that begins
+// like an array, table or string is taken at its word, so that its mistakes show.
 std::string quoted_value(const std::string& text) {
   const std::size_t value = text.find_first_not_of(" \t", text.find('=') + 1);
   if (value == std::string::npos || std::string("[{\"'").find(text[value]) != std::string::npos) return "";
   std::string quoted = text.substr(0, value) + '"';
-  for (const char c : text.substr(value)) quoted += (c == '"' || c == '\\') ? std::string{'\\', c} : std::string(1, c);
+  for (const char c : text.substr(value))
+    quoted += (c == '"' || c == '\\') ? std::string{'\\', c} : std::string(1, c);
   return quoted + '"';
 }
 
@@ -88,7 +89,8 @@ class Merge {
       }
       const std::vector<std::string> names = names_of(tables);
       std::string help = did_you_mean(label, names);
-      if (help.empty() && !names.empty()) help = "there are " + listed(names) + ", or 0 to " + std::to_string(tables.size() - 1);
+      if (help.empty() && !names.empty())
+        help = "there are " + listed(names) + ", or 0 to " + std::to_string(tables.size() - 1);
       if (help.empty()) help = "elements go by number, 0 to " + std::to_string(tables.size() - 1);
       const std::string what = element ? "a key must follow '" : "there is no '";
       diagnostics_.error(place_from(key.source(), source_), what + path + '.' + label + '\'', help);
@@ -105,7 +107,8 @@ void apply_overrides(const std::vector<std::string>& overrides, toml::table& tre
   for (const std::string& text : overrides) {
     const int source = diagnostics.add_source("command line", text, false);
     if (text.find('=') == std::string::npos) {
-      diagnostics.error({source, 1, 1}, "'" + text + "' is not an override", "write key=value, as in water.spacing=25");
+      diagnostics.error({source, 1, 1}, "'" + text + "' is not an override",
+                        "write key=value, as in water.spacing=25");
       continue;
     }
     std::optional<toml::table> changes = parse(text, source, diagnostics);

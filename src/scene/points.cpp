@@ -14,7 +14,8 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t neighbours = 8;
 
-// The lattice along one axis, if the coordinates are equally spaced within 2 % of the step (they come rounded).
+// The lattice along one axis, if the coordinates are equally spaced within 2 % of the step (they come
+// rounded).
 struct Axis {
   double first = 0, step = 0;
   int count = 0;
@@ -36,7 +37,9 @@ std::optional<Axis> find_axis(std::vector<double> coordinates) {
   return axis;
 }
 
-int nearest_node(const Axis& axis, double at) { return static_cast<int>(std::lround((at - axis.first) / axis.step)); }
+int nearest_node(const Axis& axis, double at) {
+  return static_cast<int>(std::lround((at - axis.first) / axis.step));
+}
 
 // Points in square bins of about two points each.
 class Scatter {
@@ -52,7 +55,8 @@ class Scatter {
     nx_ = bins(high[0] - low_[0]);
     ny_ = bins(high[1] - low_[1]);
     bins_.resize(static_cast<std::size_t>(nx_) * ny_);
-    for (std::size_t i = 0; i < points_.size(); ++i) bin(column(points_[i].x), row(points_[i].y)).push_back(i);
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      bin(column(points_[i].x), row(points_[i].y)).push_back(i);
   }
 
   double level(double x, double y) {
@@ -76,7 +80,8 @@ class Scatter {
   int row(double y) const { return std::clamp(static_cast<int>((y - low_[1]) / size_), 0, ny_ - 1); }
   std::vector<std::size_t>& bin(int i, int j) { return bins_[static_cast<std::size_t>(j) * nx_ + i]; }
 
-  // A query outside the box sits in an edge bin though it is farther away: its own distance to the bin comes on top.
+  // A query outside the box sits in an edge bin though it is farther away: its own distance to the bin comes
+  // on top.
   double reach2(int ring, double x, double y) const {
     const double ux = x - low_[0] - column(x) * size_, uy = y - low_[1] - row(y) * size_;
     const double inside = std::min(std::min(ux, size_ - ux), std::min(uy, size_ - uy));
@@ -138,7 +143,8 @@ std::vector<BedPoint> read_points(const std::string& path, const std::string& te
         header = true;
         return;
       }
-      throw BadData(at_line(path, number) + ": three numbers are wanted, x y z", "the file is read as x-y-z points");
+      throw BadData(at_line(path, number) + ": three numbers are wanted, x y z",
+                    "the file is read as x-y-z points; an ESRI ASCII grid begins with 'ncols'");
     }
     points.push_back(p);
   });

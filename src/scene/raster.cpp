@@ -15,8 +15,9 @@ namespace {
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 const std::vector<std::string>& header_names() {
-  static const std::vector<std::string> names = {"ncols",     "nrows",    "xllcorner", "yllcorner", "xllcenter",
-                                                 "yllcenter", "cellsize", "dx",        "dy",        "nodata_value"};
+  static const std::vector<std::string> names = {"ncols",     "nrows",       "xllcorner", "yllcorner",
+                                                 "xllcenter", "yllcenter",   "cellsize",  "dx",
+                                                 "dy",        "nodata_value"};
   return names;
 }
 
@@ -86,14 +87,15 @@ void check_count(const Values& values, int nx, int ny, const std::string& path) 
   if (values.levels.size() == wanted) return;
   const int line = values.odd_line > 0 ? values.odd_line : values.last_line;
   std::string what = "the header promises " + std::to_string(nx) + " x " + std::to_string(ny) + " = " +
-                     std::to_string(wanted) + " values, the file holds " + std::to_string(values.levels.size());
+                     std::to_string(wanted) + " values, the file holds " +
+                     std::to_string(values.levels.size());
   if (values.odd_line > 0) what += "; this line holds " + std::to_string(values.odd_count);
   throw BadData(at_line(path, line) + ": " + what);
 }
 
 // Corner of the lowest-left value along one axis.
-double origin(const Header& header, const std::string& axis, double step, std::optional<Registration> registration,
-              const std::string& path) {
+double origin(const Header& header, const std::string& axis, double step,
+              std::optional<Registration> registration, const std::string& path) {
   if (header.has(axis + "llcenter")) return header.get(axis + "llcenter", path);
   const double corner = header.get(axis + "llcorner", path);
   return registration == Registration::cell ? corner + 0.5 * step : corner;
@@ -106,8 +108,10 @@ Raster empty_raster(const Header& header, std::optional<Registration> registrati
   const bool square = header.has("cellsize") || !header.has("dx");
   raster.dx = header.get(square ? "cellsize" : "dx", path);
   raster.dy = header.get(square ? "cellsize" : "dy", path);
-  if (!(raster.dx > 0 && raster.dy > 0)) throw BadData(at_line(path, header.last_line) + ": the cell size is not positive");
-  if (raster.nx < 2 || raster.ny < 2) throw BadData(at_line(path, header.last_line) + ": fewer than 2 x 2 values");
+  if (!(raster.dx > 0 && raster.dy > 0))
+    throw BadData(at_line(path, header.last_line) + ": the cell size is not positive");
+  if (raster.nx < 2 || raster.ny < 2)
+    throw BadData(at_line(path, header.last_line) + ": fewer than 2 x 2 values");
   raster.x0 = origin(header, "x", raster.dx, registration, path);
   raster.y0 = origin(header, "y", raster.dy, registration, path);
   return raster;
@@ -131,13 +135,15 @@ bool looks_like_ascii_grid(const std::string& text) {
   return is_header_name(text.substr(begin, text.find_first_of(" \t\n", begin) - begin));
 }
 
-AsciiGrid read_ascii_grid(const std::string& path, const std::string& text, std::optional<Registration> registration) {
+AsciiGrid read_ascii_grid(const std::string& path, const std::string& text,
+                          std::optional<Registration> registration) {
   Header header;
   Values values;
   for_each_line(text, [&](int number, const std::string& line) {
     if (is_comment_or_empty(line)) return;
     const std::size_t first = line.find_first_not_of(" \t");
-    if (values.levels.empty() && is_header_name(line.substr(first, line.find_first_of(" \t", first) - first))) {
+    if (values.levels.empty() &&
+        is_header_name(line.substr(first, line.find_first_of(" \t", first) - first))) {
       read_header_line(line, number, path, header);
       return;
     }
@@ -165,14 +171,16 @@ double Raster::level(double x, double y) const {
   const int i = std::clamp(static_cast<int>(std::floor(u)), 0, nx - 2);
   const int j = std::clamp(static_cast<int>(std::floor(v)), 0, ny - 2);
   const double a = u - i, b = v - j;
-  return (1 - b) * ((1 - a) * at(i, j) + a * at(i + 1, j)) + b * ((1 - a) * at(i, j + 1) + a * at(i + 1, j + 1));
+  return (1 - b) * ((1 - a) * at(i, j) + a * at(i + 1, j)) +
+         b * ((1 - a) * at(i, j + 1) + a * at(i + 1, j + 1));
 }
 
 Raster cropped(const Raster& raster, const Domain& domain) {
   const auto range = [](double low, double high, double origin_at, double step, int count) {
     const int first = static_cast<int>(std::floor(std::clamp((low - origin_at) / step, 0.0, count - 2.0)));
     const int last = static_cast<int>(std::ceil(std::clamp((high - origin_at) / step, 1.0, count - 1.0)));
-    return std::array<int, 2>{std::max(first - Raster::margin, 0), std::min(last + Raster::margin, count - 1)};
+    return std::array<int, 2>{std::max(first - Raster::margin, 0),
+                              std::min(last + Raster::margin, count - 1)};
   };
   const auto columns = range(domain.low[0], domain.high[0], raster.x0, raster.dx, raster.nx);
   const auto rows = range(domain.low[1], domain.high[1], raster.y0, raster.dy, raster.ny);

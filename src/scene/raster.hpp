@@ -1,4 +1,5 @@
-// A regular lattice of bed levels and the readers that give one: ESRI ASCII grids here, x-y-z points in points.hpp.
+// A regular lattice of bed levels and the readers that give one: ESRI ASCII grids here, x-y-z points in
+// points.hpp.
 #pragma once
 #include <array>
 #include <memory>
@@ -10,8 +11,9 @@
 
 namespace freshet::input {
 
-// Levels at the nodes x0 + i dx, y0 + j dy [m]; NaN = no value. Bilinear between the nodes; beyond the edge the last
-// cell goes on linearly for up to `margin` cells and then constantly: enough for the lattice around a domain.
+// Levels at the nodes x0 + i dx, y0 + j dy [m]; NaN = no value. Bilinear between the nodes; beyond the edge
+// the last cell goes on linearly for up to `margin` cells and then constantly: enough for the lattice around
+// a domain.
 struct Raster {
   static constexpr int margin = 8;  // cells
   double x0 = 0, y0 = 0, dx = 1, dy = 1;
@@ -25,14 +27,15 @@ struct Raster {
 
 enum class Registration { node, cell };
 
-// An ESRI ASCII grid. xllcorner headers need the registration: cell-registered values sit half a cell inside the
-// corner, node-registered ones on it. xllcenter headers name the first value's place. Throws BadData: header or count of
-// values inconsistent, with file:line.
+// An ESRI ASCII grid. xllcorner headers need the registration: cell-registered values sit half a cell inside
+// the corner, node-registered ones on it. xllcenter headers name the first value's place. Throws BadData:
+// header or count of values inconsistent, with file:line.
 struct AsciiGrid {
   Raster raster;
   bool corner = false;  // xllcorner: registration decides
 };
-AsciiGrid read_ascii_grid(const std::string& path, const std::string& text, std::optional<Registration> registration);
+AsciiGrid read_ascii_grid(const std::string& path, const std::string& text,
+                          std::optional<Registration> registration);
 bool looks_like_ascii_grid(const std::string& text);
 
 // The part of the raster within `Raster::margin` cells of the box; at least 2 x 2 nodes.

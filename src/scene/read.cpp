@@ -51,14 +51,16 @@ toml::table parse(const std::string& text, Diagnostics& diagnostics) {
     return toml::parse(std::string_view(text), std::string("0"));
   } catch (const toml::parse_error& error) {
     const toml::source_position at = error.source().begin;
-    diagnostics.error({0, static_cast<int>(at.line), static_cast<int>(at.column)}, std::string(error.description()));
+    diagnostics.error({0, static_cast<int>(at.line), static_cast<int>(at.column)},
+                      std::string(error.description()));
   }
   return {};
 }
 
 }  // namespace
 
-Scene read_scene_text(const std::string& text, const std::string& file, const std::vector<std::string>& overrides) {
+Scene read_scene_text(const std::string& text, const std::string& file,
+                      const std::vector<std::string>& overrides) {
   Diagnostics diagnostics;
   diagnostics.add_source(file, text);
   toml::table tree = parse(text, diagnostics);

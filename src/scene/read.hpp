@@ -1,4 +1,4 @@
-// Reads a scene file (TOML, SI units) into a Scene. docs/scene.md lists the keys.
+// Reads a scene file (TOML, SI units) into a Scene. cases/README.md lists the keys.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,14 +7,17 @@
 
 namespace freshet {
 
-// Overrides are dotted paths, `water.spacing=25`, `gauge.ch5.at=[4.5, 1.2]`; they count as if they stood in the file.
-// Data files are looked for beside the scene, then in $FRESHET_DATA, the checkout's data/ and ./data.
-// Throws SceneError with every error of meaning in one text, each as file:line:col (or "command line") with the source
-// line, a caret and help; of a syntax error the first. DataError if only data files are at fault.
+// Overrides are dotted paths, `water.spacing=25`, `gauge.ch5.at=[4.5, 1.2]`; they count as if they stood in
+// the file. Data files are looked for beside the scene, then in $FRESHET_DATA, the checkout's data/ and
+// ./data. Throws SceneError with every error of meaning in one text, each as file:line:col (or "command
+// line") with the source line, a caret and help; of a syntax error the first. DataError if only data files
+// are at fault.
 Scene read_scene(const std::string& path, const std::vector<std::string>& overrides = {});
 
-// The same for a text, such as Scene::text of a result. `file` heads the messages and its directory is searched for data.
-Scene read_scene_text(const std::string& text, const std::string& file, const std::vector<std::string>& overrides = {});
+// The same for a text, such as Scene::text of a result. `file` heads the messages and its directory is
+// searched for data.
+Scene read_scene_text(const std::string& text, const std::string& file,
+                      const std::vector<std::string>& overrides = {});
 
 // What was understood, one line each: extent, bed, water, boundaries, stations, numerics, notes.
 std::vector<std::string> describe(const Scene& scene);

@@ -84,7 +84,7 @@ struct Sph {
   double strength = 1.0;  // factor on the Lax-Friedrichs term
   Acceleration acceleration = Acceleration::variational;
   double newton_tolerance = 1e-5;  // of the relative density residual
-  double h_floor = 0.6;            // x h0
+  double h_floor = 0.8;            // x h0; the reader's default is 1.6^(-1/D): what a density 1.6 times the initial one gives
   double h_cap = 3.0;              // x h0
 };
 

@@ -1,4 +1,5 @@
-// The sections of a scene file, one function each; read.cpp calls them in the order in which they need each other.
+// The sections of a scene file, one function each; read.cpp calls them in the order in which they need each
+// other.
 #pragma once
 #include <optional>
 #include <string>
@@ -19,22 +20,23 @@ void read_bed(Table& section, Scene& scene);
 
 // [compare]. Needs the bed and water.spacing. `exact_at` is where the exact solution stands in the file.
 struct ComparePlan {
-  double window = 0;         // s
-  bool around_end = false;   // the window lies around time.end: the run goes on for half of it
+  double window = 0;        // s
+  bool around_end = false;  // the window lies around time.end: the run goes on for half of it
 };
 ComparePlan read_compare(Table& section, Scene& scene);
 
-// [water] start and wet_above are read first (the comparison window needs them), surface, depth, velocity later.
+// [water] start and wet_above are read first (the comparison window needs them), surface, depth, velocity
+// later.
 void read_spacing(Table& section, Scene& scene);
 void read_water_state(Table& section, Scene& scene);
 
 void read_time(Table& section, const ComparePlan& compare, Scene& scene);  // [time] end, cfl
 void read_boundary(Table& section, Scene& scene);                          // one [[boundary]]; needs time.end
-void read_wall(Table& section, Scene& scene);                              // one [[wall]]; needs the boundaries
-void read_gauge(Table& section, Scene& scene);                             // one [[gauge]]
-void read_run_up(Table& section, Scene& scene);                            // one [[runup]]
-void read_output(Table& section, Scene& scene);                            // [output]
-void read_limits(Table& section, Scene& scene);                            // [limits]
+void read_wall(Table& section, Scene& scene);    // one [[wall]]; needs the boundaries
+void read_gauge(Table& section, Scene& scene);   // one [[gauge]]
+void read_run_up(Table& section, Scene& scene);  // one [[runup]]
+void read_output(Table& section, Scene& scene);  // [output]
+void read_limits(Table& section, Scene& scene);  // [limits]
 
 // A duration: a positive number of seconds or { periods = n } of the exact solution.
 std::optional<double> read_duration(Table& section, const std::string& key, const Scene& scene);

@@ -76,7 +76,8 @@ bool is_section(const toml::node& node) { return node.is_table() && !node.as_tab
 
 bool is_section_list(const toml::node& node) {
   const toml::array* array = node.as_array();
-  return array && !array->empty() && array->is_homogeneous(toml::node_type::table) && is_section(*array->get(0));
+  return array && !array->empty() && array->is_homogeneous(toml::node_type::table) &&
+         is_section(*array->get(0));
 }
 
 void write_section(std::ostream& out, const toml::table& table, const std::string& path) {

@@ -21,16 +21,19 @@ struct Sheet {
 
 bool any_number(const std::vector<std::string>& cells) {
   double number;
-  return std::any_of(cells.begin(), cells.end(), [&](const std::string& cell) { return parse_number(cell, number); });
+  return std::any_of(cells.begin(), cells.end(),
+                     [&](const std::string& cell) { return parse_number(cell, number); });
 }
 
-// Names may hold blanks ("water surface(m)"): where the blanks give another count than the data, two blanks separate.
+// Names may hold blanks ("water surface(m)"): where the blanks give another count than the data, two blanks
+// separate.
 std::vector<std::string> split_header(const std::string& line, std::size_t columns) {
   std::vector<std::string> cells = split_cells(line);
   if (cells.size() <= columns || line.find_first_of(",;\t") != std::string::npos) return cells;
   std::string marked;
   for (std::size_t i = 0; i < line.size(); ++i) {
-    const bool run = line[i] == ' ' && ((i + 1 < line.size() && line[i + 1] == ' ') || (i > 0 && line[i - 1] == ' '));
+    const bool run =
+        line[i] == ' ' && ((i + 1 < line.size() && line[i + 1] == ' ') || (i > 0 && line[i - 1] == ' '));
     marked += run ? '\t' : line[i];
   }
   cells = split_cells(marked);
@@ -59,12 +62,13 @@ std::size_t index_of(const Column& column, const Sheet& sheet, const std::string
     const std::size_t count = sheet.rows.front().cells.size();
     if (static_cast<std::size_t>(column.number) <= count) return column.number - 1;
     throw NoSuchColumn{is_time, "'" + shown + "' has no column " + std::to_string(column.number),
-                       "it has " + std::to_string(count) + (count == 1 ? " column" : " columns") + ", counted from 1"};
+                       "it has " + counted(count, "column") + ", counted from 1"};
   }
   const auto found = std::find(sheet.header.begin(), sheet.header.end(), column.name);
   if (found != sheet.header.end()) return found - sheet.header.begin();
-  std::string help = sheet.header.empty() ? "the file has no header line: give the column's number, counted from 1"
-                                          : did_you_mean(column.name, sheet.header);
+  std::string help = sheet.header.empty()
+                       ? "the file has no header line: give the column's number, counted from 1"
+                       : did_you_mean(column.name, sheet.header);
   if (help.empty()) help = "its columns are " + listed(sheet.header);
   throw NoSuchColumn{is_time, "'" + shown + "' has no column '" + column.name + "'", help};
 }
@@ -107,7 +111,7 @@ Series sorted(const Series& series, const std::string& path, std::vector<std::st
   const std::size_t repeated = series.t.size() - out.t.size();
   if (!was_sorted) notes.push_back(file_name(path) + ": rows sorted by time");
   if (repeated > 0) {
-    notes.push_back(file_name(path) + ": " + std::to_string(repeated) + " rows with a repeated time left out");
+    notes.push_back(file_name(path) + ": " + counted(repeated, "row") + " with a repeated time left out");
   }
   return out;
 }
@@ -129,10 +133,12 @@ Series read_forcing(const SeriesFile& file) {
   Series series;
   for (const Row& row : sheet.rows) {
     double t, value;
-    if (!read_row(row, columns, t, value)) throw BadData(at_line(file.path, row.line) + ": " + bad_cell(row, columns));
+    if (!read_row(row, columns, t, value))
+      throw BadData(at_line(file.path, row.line) + ": " + bad_cell(row, columns));
     if (!series.t.empty() && !(t > series.t.back())) {
-      throw BadData(at_line(file.path, row.line) + ": time " + shown(t) + " s follows " + shown(series.t.back()) +
-                        " s; times must increase strictly", "sort the rows and remove repeated times");
+      throw BadData(at_line(file.path, row.line) + ": time " + shown(t) + " s follows " +
+                        shown(series.t.back()) + " s; times must increase strictly",
+                    "sort the rows and remove repeated times");
     }
     series.t.push_back(t);
     series.value.push_back(value * file.scale + file.offset);
@@ -154,9 +160,10 @@ Series read_measured(const SeriesFile& file, std::vector<std::string>& notes) {
     series.t.push_back(t);
     series.value.push_back(value * file.scale + file.offset);
   }
-  if (series.t.empty()) throw BadData(at_line(file.path, sheet.rows[0].line) + ": " + bad_cell(sheet.rows[0], columns));
+  if (series.t.empty())
+    throw BadData(at_line(file.path, sheet.rows[0].line) + ": " + bad_cell(sheet.rows[0], columns));
   if (left_out > 0) {
-    notes.push_back(file_name(file.path) + ": " + std::to_string(left_out) + " rows without numbers left out");
+    notes.push_back(file_name(file.path) + ": " + counted(left_out, "row") + " without numbers left out");
   }
   return sorted(series, file.path, notes);
 }

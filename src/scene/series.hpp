@@ -1,6 +1,6 @@
 // Series of time from text files: `{ file = "wave.txt", t = 1, value = "eta", scale = 0.01, offset = 0 }`.
-// Columns by number (from 1) or by name (header line); commas, semicolons, tabs or blanks; BOM, CRLF, trailing
-// separators, empty lines and # comments are accepted. value = column * scale + offset [SI].
+// Columns by number (from 1) or by name (header line); commas, semicolons, tabs or blanks; BOM, CRLF,
+// trailing separators, empty lines and # comments are accepted. value = column * scale + offset [SI].
 #pragma once
 #include <string>
 #include <vector>
@@ -12,7 +12,7 @@ namespace freshet::input {
 class Table;
 
 struct Column {
-  int number = 0;    // from 1; 0 = by name
+  int number = 0;  // from 1; 0 = by name
   std::string name;
 };
 
@@ -30,7 +30,8 @@ struct NoSuchColumn {
 
 // Forcing: times must increase strictly and every row must hold numbers. Throws BadData, NoSuchColumn.
 Series read_forcing(const SeriesFile& file);
-// Measured: rows without numbers are left out, rows are sorted by time and repeated times dropped, each with a note.
+// Measured: rows without numbers are left out, rows are sorted by time and repeated times dropped, each with
+// a note.
 Series read_measured(const SeriesFile& file, std::vector<std::string>& notes);
 
 // The section `{ file, t, value, scale, offset }`; empty series after an error, which is reported.

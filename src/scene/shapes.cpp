@@ -64,7 +64,9 @@ Function slope(Table& shape, int dimension) {
 Function read_shape(Table& shape, int dimension, std::string& description) {
   using Reader = Function (*)(Table&, int);
   const Reader reader =
-      shape.choice<Reader>("type", {{"hump", hump}, {"step", step}, {"paraboloid", paraboloid}, {"slope", slope}})
+      shape
+          .choice<Reader>("type",
+                          {{"hump", hump}, {"step", step}, {"paraboloid", paraboloid}, {"slope", slope}})
           .required();
   if (!reader) {
     shape.accept_rest();  // without its type nobody knows which keys belong to it

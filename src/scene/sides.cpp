@@ -14,37 +14,43 @@ double diagonal(const Domain& domain) {
   return std::hypot(domain.high[0] - domain.low[0], domain.high[1] - domain.low[1]);
 }
 
-// The part [low, high] of the side, as fractions of its length, that the line covers; empty unless it lies on the side.
-std::array<double, 2> covered(const Piece& side, const std::array<Point, 2>& line, double tolerance) {
+// What a boundary takes of a side: from and to as fractions of the side's length, and the points there.
+struct Opening {
+  double from = 0, to = 0;
+  Point first{}, last{};
+};
+
+// Empty unless the line lies on the side.
+Opening opening_in(const Piece& side, const std::array<Point, 2>& line, double tolerance) {
   const double dx = side.to[0] - side.from[0], dy = side.to[1] - side.from[1], length = std::hypot(dx, dy);
   std::array<double, 2> part{};
   for (int k = 0; k < 2; ++k) {
     const double x = line[k][0] - side.from[0], y = line[k][1] - side.from[1];
-    if (std::abs(x * dy - y * dx) / length > tolerance) return {0, 0};
+    if (std::abs(x * dy - y * dx) / length > tolerance) return {};
     part[k] = (x * dx + y * dy) / (length * length);
   }
-  return {std::clamp(std::min(part[0], part[1]), 0.0, 1.0), std::clamp(std::max(part[0], part[1]), 0.0, 1.0)};
+  const int first = part[0] < part[1] ? 0 : 1;
+  return {part[first], part[1 - first], line[first], line[1 - first]};
 }
 
 std::vector<Piece> closed_parts(const Piece& side, const Scene& scene) {
-  const double tolerance = 1e-9 * diagonal(scene.domain);
-  std::vector<std::array<double, 2>> openings;
+  constexpr double none = 1e-9;  // of the side: shorter pieces are rounding
+  std::vector<Opening> openings;
   for (const OpenBoundary& boundary : scene.boundaries) {
-    const auto opening = covered(side, boundary.line, tolerance);
-    if (opening[1] - opening[0] > 1e-9) openings.push_back(opening);
+    const Opening opening = opening_in(side, boundary.line, none * diagonal(scene.domain));
+    if (opening.to - opening.from > none) openings.push_back(opening);
   }
-  std::sort(openings.begin(), openings.end());
-  openings.push_back({1, 1});
+  std::sort(openings.begin(), openings.end(),
+            [](const Opening& a, const Opening& b) { return a.from < b.from; });
+  openings.push_back({1, 1, side.to, side.to});
   std::vector<Piece> parts;
-  const auto at = [&](double s) {
-    if (s <= 0) return side.from;  // corners to the last bit, so that sides join
-    if (s >= 1) return side.to;
-    return Point{side.from[0] + s * (side.to[0] - side.from[0]), side.from[1] + s * (side.to[1] - side.from[1])};
-  };
-  double begin = 0;
-  for (const auto& opening : openings) {
-    if (opening[0] - begin > 1e-9) parts.push_back({at(begin), at(opening[0])});
-    begin = std::max(begin, opening[1]);
+  double reached = 0;
+  Point begin = side.from;
+  for (const Opening& opening : openings) {
+    if (opening.from - reached > none) parts.push_back({begin, opening.first});
+    if (opening.to <= reached) continue;
+    reached = opening.to;
+    begin = opening.last;
   }
   return parts;
 }
@@ -52,7 +58,8 @@ std::vector<Piece> closed_parts(const Piece& side, const Scene& scene) {
 void add_ends(Scene& scene) {
   for (const double x : {scene.domain.low[0], scene.domain.high[0]}) {
     const auto here = [x](const OpenBoundary& boundary) { return boundary.line[0][0] == x; };
-    if (std::none_of(scene.boundaries.begin(), scene.boundaries.end(), here)) scene.walls.push_back({{Point{x, 0}}});
+    if (std::none_of(scene.boundaries.begin(), scene.boundaries.end(), here))
+      scene.walls.push_back({{Point{x, 0}}});
   }
 }
 

@@ -16,6 +16,12 @@ std::string shown(double number) {
   return text;
 }
 
+std::string rounded(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.8g", number);
+  return text;
+}
+
 Table::Table(Context& context, toml::table* table, std::string path, Place place)
     : context_(context), table_(table), path_(std::move(path)), place_(place) {}
 
@@ -42,7 +48,8 @@ Table::~Table() {
 
 Place Table::place_from(const toml::source_region& region) const {
   if (!region.begin || !region.path) return place_;  // made by the parser, not written by the user
-  return {std::stoi(*region.path), static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
+  return {std::stoi(*region.path), static_cast<int>(region.begin.line),
+          static_cast<int>(region.begin.column)};
 }
 
 Place Table::place_of(const std::string& key) const {
@@ -54,7 +61,8 @@ Place Table::key_place(const std::string& key) const {
   return place_from(table_->find(key)->first.source());
 }
 
-void Table::error(const std::string& key, const std::string& message, const std::string& help, Blame blame) const {
+void Table::error(const std::string& key, const std::string& message, const std::string& help,
+                  Blame blame) const {
   context_.diagnostics.error(place_of(key), message, help, blame);
 }
 
@@ -64,7 +72,9 @@ toml::node* Table::find(const std::string& key) {
 }
 
 Slot Table::slot(const std::string& key, const std::string& hint) {
-  return {&context_, path_of(key), place_of(key), has(key), [this, key, hint] { missing_.push_back({key, hint}); }};
+  return {&context_, path_of(key), place_of(key), has(key), [this, key, hint] {
+            missing_.push_back({key, hint});
+          }};
 }
 
 Table Table::table(const std::string& key) {
@@ -76,7 +86,8 @@ Table Table::table(const std::string& key) {
 std::size_t Table::size_of(const std::string& key) {
   toml::node* node = find(key);
   if (!node) return 0;
-  if (node->is_array() && node->as_array()->is_homogeneous(toml::node_type::table)) return node->as_array()->size();
+  if (node->is_array() && node->as_array()->is_homogeneous(toml::node_type::table))
+    return node->as_array()->size();
   if (node->is_array() && node->as_array()->empty()) return 0;
   if (node->is_table() && place_of(key).source > 0) {
     error(key, "the scene has no [[" + path_of(key) + "]] to change");
@@ -104,15 +115,16 @@ std::string Table::one_of(const std::vector<std::string>& keys, bool required) {
     find(key);
     if (!has(key)) continue;
     if (!named.empty()) {
-      context_.diagnostics.error(key_place(key), "'" + path_of(named) + "' and '" + path_of(key) +
-                                                     "' exclude each other", "keep one of them");
+      context_.diagnostics.error(key_place(key),
+                                 "'" + path_of(named) + "' and '" + path_of(key) + "' exclude each other",
+                                 "keep one of them");
       return "";
     }
     named = key;
   }
   if (named.empty() && required) {
-    context_.diagnostics.error(place_, "one of " + listed(keys) + " is missing" +
-                                           (path_.empty() ? "" : " under [" + path_ + "]"));
+    context_.diagnostics.error(
+        place_, "one of " + listed(keys) + " is missing" + (path_.empty() ? "" : " under [" + path_ + "]"));
   }
   return named;
 }

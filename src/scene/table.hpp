@@ -1,7 +1,8 @@
 // A typed view of one TOML table. A section of the scene reads like its documentation:
 //   water.number("spacing", "m").positive().required();
-// Every key asked for is known; when the Table goes out of scope it reports the keys that nobody asked for, and those
-// that are missing. Nothing throws here: errors collect in Diagnostics and reading goes on with a stand-in value.
+// Every key asked for is known; when the Table goes out of scope it reports the keys that nobody asked for,
+// and those that are missing. Nothing throws here: errors collect in Diagnostics and reading goes on with a
+// stand-in value.
 #pragma once
 #include <toml++/toml.h>
 
@@ -23,11 +24,13 @@ struct Context {
   Diagnostics& diagnostics;
   std::filesystem::path directory;  // of the scene file: relative paths start here
   double gravity = 9.81;            // m/s2, the constant g of expressions
-  bool exact_failed = false;        // [compare] names an exact solution, with errors: no errors follow from its absence
-  std::vector<std::string> notes;   // what the reader decided and the user may want to know
+  bool exact_failed =
+      false;  // [compare] names an exact solution, with errors: no errors follow from its absence
+  std::vector<std::string> notes;  // what the reader decided and the user may want to know
 };
 
-std::string shown(double number);  // shortest text, for messages
+std::string shown(double number);    // the shortest text that reads back to the same number
+std::string rounded(double number);  // eight digits, for places
 
 // A key of a table, named or not.
 struct Slot {
@@ -46,11 +49,16 @@ class Value {
 
   template <class Test>
   Value& check(Test holds, const std::string& rule, const std::string& help = "") {
-    if (value_ && !holds(*value_)) fail("'" + slot_.path + "' is " + shown(*value_) + "; it must be " + rule, help);
+    if (value_ && !holds(*value_))
+      fail("'" + slot_.path + "' is " + shown(*value_) + "; it must be " + rule, help);
     return *this;
   }
-  Value& positive() { return check([](T v) { return v > 0; }, "positive"); }
-  Value& at_least(T low) { return check([low](T v) { return v >= low; }, "at least " + shown(low)); }
+  Value& positive() {
+    return check([](T v) { return v > 0; }, "positive");
+  }
+  Value& at_least(T low) {
+    return check([low](T v) { return v >= low; }, "at least " + shown(low));
+  }
   Value& within(T low, T high) {
     return check([=](T v) { return v >= low && v <= high; }, "between " + shown(low) + " and " + shown(high));
   }
@@ -96,11 +104,11 @@ class Table {
   Value<std::vector<Point>> points(const std::string& key);       // [[x, y], ...]
   Value<Function> function(const std::string& key);               // a number or an expression in x and y
   Value<std::array<Function, 2>> velocity(const std::string& key, int dimension);
-  Value<std::string> file(const std::string& key);                // absolute path of an existing file
+  Value<std::string> file(const std::string& key);  // absolute path of an existing file
 
   // Tables inside this one.
-  Table table(const std::string& key);                // absent: a table without keys, given() is false
-  std::size_t size_of(const std::string& key);        // of an array of tables, 0 if absent
+  Table table(const std::string& key);          // absent: a table without keys, given() is false
+  std::size_t size_of(const std::string& key);  // of an array of tables, 0 if absent
   Table element(const std::string& key, std::size_t i);
 
   bool has(const std::string& key) const { return table_ && table_->contains(key); }

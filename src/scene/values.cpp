@@ -155,8 +155,8 @@ std::optional<Function> Table::compiled(const toml::node& node, const std::strin
   const Place place = place_from(node.source());
   const auto text = node.value<std::string>();
   if (!node.is_string() || !text) {
-    context_.diagnostics.error(place, "'" + path + "' must be a number or an expression in x and y, not " +
-                                          type_name(node));
+    context_.diagnostics.error(
+        place, "'" + path + "' must be a number or an expression in x and y, not " + type_name(node));
     return std::nullopt;
   }
   try {
@@ -186,8 +186,9 @@ Value<std::array<Function, 2>> Table::velocity(const std::string& key, int dimen
       if (component) (*found)[i] = *component;
     }
   } else if (node) {
-    wrong_type(key, *node, dimension == 2 ? "two numbers or expressions, [u, v] in m/s"
-                                          : "one number or expression, [u] in m/s");
+    wrong_type(key, *node,
+               dimension == 2 ? "two numbers or expressions, [u, v] in m/s"
+                              : "one number or expression, [u] in m/s");
   }
   return value(key, found);
 }

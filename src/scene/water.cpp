@@ -32,14 +32,15 @@ void read_exact_state(Table& section, const std::string& key, Scene& scene) {
 void read_spacing(Table& section, Scene& scene) {
   Water& water = scene.water;
   Value<double> spacing = section.number("spacing", "m");
-  const double smallest = std::min(scene.domain.high[0] - scene.domain.low[0],
-                                   scene.domain.dimension == 2 ? scene.domain.high[1] - scene.domain.low[1] : 1e300);
+  const double smallest =
+      std::min(scene.domain.high[0] - scene.domain.low[0],
+               scene.domain.dimension == 2 ? scene.domain.high[1] - scene.domain.low[1] : 1e300);
   spacing.positive().check([=](double dx) { return dx <= smallest; },
                            "at most the domain's width (" + shown(smallest) + ")");
   water.spacing = spacing.required();
   water.start = section
-                    .choice<Water::Start>("start", {{"cells", Water::Start::cells},
-                                                    {"equal-mass", Water::Start::equal_mass}})
+                    .choice<Water::Start>(
+                        "start", {{"cells", Water::Start::cells}, {"equal-mass", Water::Start::equal_mass}})
                     .otherwise(water.start);
   water.wet_above = section.number("wet_above", "m").at_least(0).otherwise(water.wet_above);
 }

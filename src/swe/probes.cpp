@@ -31,8 +31,8 @@ void for_each_fluid_near(const Rows& rows, const Field<int>& kind, const Point& 
 template <int D>
 Totals Solver<D>::totals() const {
   Totals totals;
-  const Particles<D> p = const_cast<Solver*>(this)->bind();
-  const Field<int> kinds = const_cast<Solver*>(this)->kind();
+  const Particles<D> p = bind();
+  const Field<int> kinds = kind();
   const bool open = !boundaries_.empty();
   const int n = particles_.size();
   totals.mass = ordered_sum<1>("swe::mass", n, KOKKOS_LAMBDA(int i) {
@@ -51,8 +51,8 @@ Totals Solver<D>::totals() const {
 
 template <int D>
 std::vector<PointState> Solver<D>::sample(const std::vector<Point>& points) const {
-  const Particles<D> p = const_cast<Solver*>(this)->bind();
-  const Field<int> kinds = const_cast<Solver*>(this)->kind();
+  const Particles<D> p = bind();
+  const Field<int> kinds = kind();
   std::vector<PointState> states(points.size());
   for (size_t k = 0; k < points.size(); ++k) {
     const Vec<double, D> at_point = to_vec<D>(points[k]);
@@ -72,13 +72,14 @@ std::vector<PointState> Solver<D>::sample(const std::vector<Point>& points) cons
 
 template <int D>
 double Solver<D>::highest_wet_bed(const Point& point, double radius, double min_depth) const {
-  const Particles<D> p = const_cast<Solver*>(this)->bind();
-  const Field<int> kinds = const_cast<Solver*>(this)->kind();
+  const Particles<D> p = bind();
+  const Field<int> kinds = kind();
   const Vec<double, D> centre = to_vec<D>(point);
+  const std::optional<Bed<D>> beds = bed();
   double highest = -1e300;
   for_each_fluid_near<D>(order_.rows(), kinds, point, radius, [&](int j) {
     const Vec<double, D> d = at(p.x, j) - centre;
-    if (p.rho(j) >= min_depth && dot(d, d) <= radius * radius) highest = larger(highest, bed_ ? bed_->level(j) : 0.0);
+    if (p.rho(j) >= min_depth && dot(d, d) <= radius * radius) highest = larger(highest, beds ? beds->level(j) : 0.0);
   });
   return highest;
 }

@@ -8,24 +8,13 @@
 namespace freshet::swe {
 namespace {
 
-// The views of all fields, made on the first call.
-void bind_vectors(FieldSet& f, Particles<1>& p) {
-  p.x = {f.real("x", "m", Carry::state)};
-  p.v = {f.real("u", "m/s", Carry::state)};
-  p.v_pred = {f.real("u_pred", "m/s", Carry::sort)};
-  p.a = {f.real("ax", "m/s2", Carry::result)};
-  p.t = {f.real("tx", "m/s2")};
+VecField<double, 1> vector_field(const FieldSet& f, const char* x, const char*, Vec<double, 1>) { return {f.real(x)}; }
+VecField<double, 2> vector_field(const FieldSet& f, const char* x, const char* y, Vec<double, 2>) {
+  return {f.real(x), f.real(y)};
 }
-void bind_vectors(FieldSet& f, Particles<2>& p) {
-  p.x = {f.real("x", "m", Carry::state), f.real("y", "m", Carry::state)};
-  p.v = {f.real("u", "m/s", Carry::state), f.real("v", "m/s", Carry::state)};
-  p.v_pred = {f.real("u_pred", "m/s", Carry::sort), f.real("v_pred", "m/s", Carry::sort)};
-  p.a = {f.real("ax", "m/s2", Carry::result), f.real("ay", "m/s2", Carry::result)};
-  p.t = {f.real("tx", "m/s2"), f.real("ty", "m/s2")};
-}
-void bind_strain(FieldSet& f, Particles<1>& p) { p.strain = {f.real("strain_xx", "1/s")}; }
-void bind_strain(FieldSet& f, Particles<2>& p) {
-  p.strain = {f.real("strain_xx", "1/s"), f.real("strain_xy", "1/s"), f.real("strain_yy", "1/s")};
+SymField<double, 1> strain_field(const FieldSet& f, Vec<double, 1>) { return {f.real("strain_xx")}; }
+SymField<double, 2> strain_field(const FieldSet& f, Vec<double, 2>) {
+  return {f.real("strain_xx"), f.real("strain_xy"), f.real("strain_yy")};
 }
 
 template <class F>
@@ -102,6 +91,7 @@ void Solver<D>::place_particles() {
     };
   const std::vector<Placed> placed = place(scene_, depth);
   particles_ = FieldSet(static_cast<int>(placed.size()));
+  make_fields();
   const Particles<D> p = bind();
   const auto fill = [&](const Field<double>& field, const auto& value) { set_field(field, placed, value); };
   fill(p.x.x, [](const Placed& q) { return q.x[0]; });
@@ -122,45 +112,73 @@ void Solver<D>::place_particles() {
   next_id_ = particles_.size();
 }
 
-// rho0 = sum m W(h0), so that the start is at rest in the particles' own density and light shoreline particles among heavy
-// neighbours do not start with a tiny h.
+// Every field of this scene; the optional ones only where the scene needs them.
 template <int D>
-void Solver<D>::sum_initial_density() {
-  const DensityOptions once{scene_.gravity, 1e300, list_margin, {1.0, 1.0}, gradient_, !boundaries_.empty()};
-  solve_density<D>(clusters_, neighbours_.view(), wall_view(), bind(), kind(), once);
-  const Particles<D> p = bind();
-  Kokkos::parallel_for("swe::reference_density", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) {
-        p.kh(i) = p.rho(i) * power<D>(p.h0(i));
-        p.h(i) = p.h0(i);
-      });
+void Solver<D>::make_fields() {
+  FieldSet& f = particles_;
+  const auto vector = [&](const char* x, const char* y, const char* unit, Carry carry) {
+    f.real(x, unit, carry);
+    if (D == 2) f.real(y, unit, carry);
+  };
+  const char* volume = D == 1 ? "m2" : "m3";
+  vector("x", "y", "m", Carry::state);
+  vector("u", "v", "m/s", Carry::state);
+  vector("u_pred", "v_pred", "m/s", Carry::sort);
+  vector("ax", "ay", "m/s2", Carry::result);
+  vector("tx", "ty", "m/s2", Carry::no);
+  for (const char* name : {"mass", "kh"}) f.real(name, volume, Carry::state);
+  for (const char* name : {"h0", "depth", "h"}) f.real(name, "m", Carry::state);
+  f.real("depth_rate", "m/s", Carry::result);
+  f.real("inv_h", "1/m", Carry::no);
+  f.real("pressure", "m/s2", Carry::no);
+  for (const char* name : {"celerity", "signal"}) f.real(name, "m/s", Carry::no);
+  f.real("weight", "1", Carry::no);
+  f.integer("id", "1", Carry::state);
+  if (gradient_)
+    for (const char* name : {"strain_xx", "strain_xy", "strain_yy"})
+      if (D == 2 || name == std::string("strain_xx")) f.real(name, "1/s", Carry::no);
+  if (bed_) f.real("bed", "m", Carry::result);
+  if (friction_) f.real("drag", "1/m", Carry::result);
+  if (!boundaries_.empty()) f.integer("kind", "1", Carry::state);
 }
 
 template <int D>
-Particles<D> Solver<D>::bind() {
-  FieldSet& f = particles_;
+Particles<D> Solver<D>::bind() const {
+  const FieldSet& f = particles_;
+  const Vec<double, D> dimension;
   Particles<D> p;
-  bind_vectors(f, p);
-  p.m = f.real("mass", D == 1 ? "m2" : "m3", Carry::state);
-  p.h0 = f.real("h0", "m", Carry::state);
-  p.kh = f.real("kh", D == 1 ? "m2" : "m3", Carry::state);
-  p.rho = f.real("depth", "m", Carry::state);
-  p.h = f.real("h", "m", Carry::state);
-  p.rate = f.real("depth_rate", "m/s", Carry::result);
-  p.inv_h = f.real("inv_h", "1/m");
-  p.pressure = f.real("pressure", "m/s2");
-  p.celerity = f.real("celerity", "m/s");
-  p.weight = f.real("weight", "1");
-  p.signal = f.real("signal", "m/s");
-  p.id = f.integer("id", "1", Carry::state);
-  if (gradient_) bind_strain(f, p);
-  if (bed_) bed_->level = f.real("bed", "m", Carry::result);
-  if (friction_) f.real("drag", "1/m", Carry::result);
+  p.x = vector_field(f, "x", "y", dimension);
+  p.v = vector_field(f, "u", "v", dimension);
+  p.v_pred = vector_field(f, "u_pred", "v_pred", dimension);
+  p.a = vector_field(f, "ax", "ay", dimension);
+  p.t = vector_field(f, "tx", "ty", dimension);
+  p.m = f.real("mass");
+  p.h0 = f.real("h0");
+  p.kh = f.real("kh");
+  p.rho = f.real("depth");
+  p.h = f.real("h");
+  p.rate = f.real("depth_rate");
+  p.inv_h = f.real("inv_h");
+  p.pressure = f.real("pressure");
+  p.celerity = f.real("celerity");
+  p.weight = f.real("weight");
+  p.signal = f.real("signal");
+  p.id = f.integer("id");
+  if (gradient_) p.strain = strain_field(f, dimension);
   return p;
 }
 
 template <int D>
-Field<int> Solver<D>::kind() {
-  return boundaries_.empty() ? Field<int>() : particles_.integer("kind", "1", Carry::state);
+Field<int> Solver<D>::kind() const {
+  return boundaries_.empty() ? Field<int>() : particles_.integer("kind");
+}
+
+// The bed with the view of its level under each particle.
+template <int D>
+std::optional<Bed<D>> Solver<D>::bed() const {
+  std::optional<Bed<D>> bed = bed_;
+  if (bed) bed->level = particles_.real("bed");
+  return bed;
 }
 
 template class Solver<1>;

@@ -27,12 +27,11 @@ Solver<D>::Solver(const Scene& scene)
   build_boundaries();
   build_walls();
   place_particles();
-  for (auto& boundary : boundaries_) boundary.fill(particles_, [this] { return bind(); }, bed_, next_id_);
+  for (auto& boundary : boundaries_) boundary.fill(particles_, [this] { return bind(); }, bed(), next_id_);
   find_neighbours();
-  sum_initial_density();
   evaluate(0);
   for (auto& boundary : boundaries_) {
-    boundary.observe(order_.rows(), bind(), kind(), bed_);
+    boundary.observe(order_.rows(), bind(), kind(), bed());
     boundary.start(bind(), kind(), particles_.size());
   }
 }
@@ -41,10 +40,10 @@ template <int D>
 void Solver<D>::step(double t, double dt) {
   kick_and_drift<D>(bind(), motion(), particles_.size(), dt);
   if (walls_) walls_->reflect(bind().x, bind().v, bind().v_pred, particles_.size());
-  for (auto& boundary : boundaries_) boundary.exchange(particles_, [this] { return bind(); }, bed_, t + dt, dt, next_id_);
+  for (auto& boundary : boundaries_) boundary.exchange(particles_, [this] { return bind(); }, bed(), t + dt, dt, next_id_);
   find_neighbours();
   evaluate(0.5 * dt);
-  for (auto& boundary : boundaries_) boundary.observe(order_.rows(), bind(), kind(), bed_);
+  for (auto& boundary : boundaries_) boundary.observe(order_.rows(), bind(), kind(), bed());
 }
 
 // Density, force and acceleration at the particles' positions, then the second half kick.
@@ -92,8 +91,8 @@ double Solver<D>::stable_dt() const {
 }
 
 template <int D>
-MotionOptions<D> Solver<D>::motion() {
-  return {scene_.gravity, {scene_.sph.h_floor, scene_.sph.h_cap}, bed_, friction_,
+MotionOptions<D> Solver<D>::motion() const {
+  return {scene_.gravity, {scene_.sph.h_floor, scene_.sph.h_cap}, bed(), friction_,
           friction_ ? particles_.real("drag") : Field<double>(), kind(), !boundaries_.empty()};
 }
 

@@ -37,10 +37,11 @@ class Solver : public Method {
   void build_walls();
   void build_boundaries();
   void place_particles();
-  void sum_initial_density();
-  Particles<D> bind();
-  MotionOptions<D> motion();
-  Field<int> kind();
+  void make_fields();
+  Particles<D> bind() const;
+  MotionOptions<D> motion() const;
+  Field<int> kind() const;
+  std::optional<Bed<D>> bed() const;
   void find_neighbours();
   void close_density();
   void evaluate(double kick_dt);

@@ -1,0 +1,139 @@
+// A run that is stopped and resumed, once or often, ends with the bits of the straight run.
+#include <catch2/catch.hpp>
+
+#include <atomic>
+#include <cstring>
+#include <functional>
+
+#include "src/io/files.hpp"
+#include "src/io/hdf5.hpp"
+#include "src/run/driver.hpp"
+#include "src/scene/read.hpp"
+#include "tests/support/fake_method.hpp"
+#include "tests/support/scratch.hpp"
+
+using namespace freshet;
+
+namespace {
+
+using Factory = std::function<std::unique_ptr<Method>(const Scene&)>;
+
+// Passes everything on and sets a flag at the end of the given step.
+class Interrupted : public Method {
+ public:
+  Interrupted(Method& method, long steps, std::atomic<bool>& stop) : method_(method), left_(steps), stop_(stop) {}
+  std::string name() const override { return method_.name(); }
+  int dimension() const override { return method_.dimension(); }
+  double stable_dt() const override { return method_.stable_dt(); }
+  void step(double t, double dt) override {
+    method_.step(t, dt);
+    if (--left_ == 0) stop_ = true;
+  }
+  FieldSet& fields() override { return method_.fields(); }
+  const FieldSet& fields() const override { return method_.fields(); }
+  Totals totals() const override { return method_.totals(); }
+  StepReport report() const override { return method_.report(); }
+  std::vector<PointState> sample(const std::vector<Point>& points) const override { return method_.sample(points); }
+  double highest_wet_bed(const Point& at, double radius, double min_depth) const override {
+    return method_.highest_wet_bed(at, radius, min_depth);
+  }
+  std::vector<std::string> features() const override { return method_.features(); }
+  ScalarState scalars() const override { return method_.scalars(); }
+  void restore(const ScalarState& scalars) override { method_.restore(scalars); }
+
+ private:
+  Method& method_;
+  long left_;
+  std::atomic<bool>& stop_;
+};
+
+// One process' share of a run: from the checkpoint in the directory, if there is one, through so many steps. True at the end.
+bool run_steps(const Scene& scene, const Factory& make, const test::Scratch& scratch, long steps) {
+  std::atomic<bool> stop{false};
+  const auto method = make(scene);
+  Interrupted interrupted(*method, steps, stop);
+  Driver driver(scene, interrupted, {scratch.path(), nullptr, false, &stop});
+  const std::string state = scratch / "state.h5";
+  if (std::filesystem::exists(state)) {
+    const Checkpoint checkpoint = read_checkpoint(state);
+    read_checkpoint_fields(state, method->fields());
+    method->restore(checkpoint.method);
+    driver.restore(checkpoint);
+  } else {
+    driver.begin();
+  }
+  return driver.run();
+}
+
+void require_same_group(const test::Scratch& a, const test::Scratch& b, const char* group) {
+  const auto left = hdf5::File::look(a / "state.h5"), right = hdf5::File::look(b / "state.h5");
+  const auto in_left = left.open(group), in_right = right.open(group);
+  REQUIRE(in_left.names() == in_right.names());
+  for (const auto& name : in_left.names()) {
+    CAPTURE(group, name);
+    const auto x = in_left.reals(name), y = in_right.reals(name);
+    REQUIRE(x.size() == y.size());
+    CHECK(std::memcmp(x.data(), y.data(), x.size() * sizeof(double)) == 0);
+  }
+}
+
+void require_same_results(const test::Scratch& a, const test::Scratch& b, const Scene& scene) {
+  for (const char* group : {"reals", "integers", "method"}) require_same_group(a, b, group);
+  const Values left = read_checkpoint(a / "state.h5").run, right = read_checkpoint(b / "state.h5").run;
+  for (const char* name : {"clock", "events_done", "initial", "depth_l1_rel", "run_up", "gauge_rows"}) {
+    CAPTURE(name);
+    CHECK((left.at(name) == right.at(name)));  // in brackets: the values themselves would flood the report
+  }
+  if (!scene.gauges.empty()) CHECK((read_text(a / "gauges.csv") == read_text(b / "gauges.csv")));
+  const auto steps = list_particle_steps(a / "particles.h5part");
+  REQUIRE(steps.size() == list_particle_steps(b / "particles.h5part").size());
+  for (const auto& step : steps) {
+    CAPTURE(step.step);
+    const auto of = [&](const test::Scratch& s) { return read_particle_step(s / "particles.h5part", step.step); };
+    CHECK((of(a).x == of(b).x && of(a).depth == of(b).depth && of(a).v_0 == of(b).v_0 && of(a).id == of(b).id));
+  }
+}
+
+// Runs straight, then again in pieces of so many steps, each in a new method and driver.
+void check_pieces(const Scene& scene, const Factory& make, long piece) {
+  const test::Scratch straight, pieces;
+  REQUIRE(run_steps(scene, make, straight, -1));
+  int count = 1;
+  while (!run_steps(scene, make, pieces, piece)) ++count;
+  CHECK(count > 1);
+  require_same_results(straight, pieces, scene);
+}
+
+std::unique_ptr<Method> make_fake(const Scene& scene) { return std::make_unique<test::FakeMethod>(scene); }
+
+}  // namespace
+
+TEST_CASE("the run loop resumes to the bit") {
+  const int dimension = GENERATE(1, 2);
+  const long piece = GENERATE(1, 7, 100);
+  Scene scene = test::fake_scene(dimension);
+  scene.end_time = 0.6;
+  check_pieces(scene, make_fake, piece);
+}
+
+TEST_CASE("what was written after the last checkpoint is written again, not twice") {
+  const test::Scratch straight, crashed;
+  const Scene scene = test::fake_scene();
+  REQUIRE(run_steps(scene, make_fake, straight, -1));
+  REQUIRE_FALSE(run_steps(scene, make_fake, crashed, 50));
+  const std::string checkpoint = read_text(crashed / "state.h5");
+  REQUIRE_FALSE(run_steps(scene, make_fake, crashed, 120));
+  write_text(crashed / "state.h5", checkpoint);  // as if the process had been killed: outputs are newer than the state
+  REQUIRE(run_steps(scene, make_fake, crashed, -1));
+  require_same_results(straight, crashed, scene);
+}
+
+TEST_CASE("a wet dam break resumes to the bit") {
+  Scene scene = read_scene("cases/dam_break_wet.toml", {"water.spacing=20", "output.every=5"});
+  Gauge gauge;
+  gauge.name = "right";
+  gauge.at = {1200, 0};
+  scene.gauges = {gauge};
+  scene.output.gauges_every = 0.7;
+  check_pieces(scene, make_method, GENERATE(1, 23));
+}

@@ -1,0 +1,121 @@
+// particles.h5part: positions, selection of fluid particles, appending after a truncation.
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+#include "src/errors.hpp"
+#include "src/io/h5part.hpp"
+#include "src/io/hdf5.hpp"
+#include "tests/support/scratch.hpp"
+
+using namespace freshet;
+
+namespace {
+
+constexpr double easting = 412345.678, northing = 6543210.123;  // m, UTM: the largest coordinates that maps use
+
+// Three particles; the second is a boundary particle.
+FieldSet three_particles(bool two_d) {
+  FieldSet fields(3);
+  const auto set = [&](const char* name, double a, double b, double c) {
+    const auto field = fields.real(name, "m", Carry::state);
+    const auto host = on_host(field);
+    host(0) = a, host(1) = b, host(2) = c;
+    Kokkos::deep_copy(field, host);
+  };
+  const auto set_integer = [&](const char* name, int a, int b, int c) {
+    const auto field = fields.integer(name, "1", Carry::state);
+    const auto host = on_host(field);
+    host(0) = a, host(1) = b, host(2) = c;
+    Kokkos::deep_copy(field, host);
+  };
+  set("x", easting, easting + 1, easting + 0.001);
+  set("u", 1.5, 2.5, -3.5);
+  if (two_d) {
+    set("y", northing, northing, northing + 0.002);
+    set("v", 0.25, 0, 0.125);
+  }
+  set("bed", -1, -2, -3);
+  set("depth", 1.75, 2, 4.5);
+  set_integer("id", 7, 8, 9);
+  set_integer("kind", 0, 1, 0);
+  return fields;
+}
+
+}  // namespace
+
+TEST_CASE("particle files give UTM positions back and leave boundary particles out") {
+  const test::Scratch scratch;
+  const ParticleFile file(scratch / "particles.h5part");
+  file.create("a = 1\n", "0.1");
+  file.append(0, 0.5, three_particles(true));
+
+  const auto step = read_particle_step(scratch / "particles.h5part", 0);
+  REQUIRE(step.x.size() == 2);
+  CHECK(step.t == 0.5);
+  // Required: 1 mm. Stored as float64: the same bits. As float32 the error would be 0.25 m.
+  CHECK(step.x == std::vector<double>{easting, easting + 0.001});
+  CHECK(step.y == std::vector<double>{northing, northing + 0.002});
+  // Numbers that float32 holds exactly.
+  CHECK(step.z == std::vector<double>{0.75, 1.5});
+  CHECK(step.depth == std::vector<double>{1.75, 4.5});
+  CHECK(step.v_0 == std::vector<double>{1.5, -3.5});
+  CHECK(step.v_1 == std::vector<double>{0.25, 0.125});
+  CHECK(step.id == std::vector<int>{7, 9});
+}
+
+TEST_CASE("particle files of 1-D scenes have y = 0 and no v_1") {
+  const test::Scratch scratch;
+  const ParticleFile file(scratch / "particles.h5part");
+  file.create("", "0.1");
+  file.append(0, 0, three_particles(false));
+  const auto step = read_particle_step(scratch / "particles.h5part", 0);
+  CHECK(step.y == std::vector<double>{0, 0});
+  CHECK(step.v_1.empty());
+}
+
+TEST_CASE("particle files tell the scene, the version and the units") {
+  const test::Scratch scratch;
+  // Attributes end at 64 KiB: a scene with a long series must not.
+  const std::string scene(200000, '#');
+  ParticleFile(scratch / "particles.h5part").create(scene, "1.2.3");
+  const auto file = hdf5::File::look(scratch / "particles.h5part");  // must outlive its groups
+  const auto about = file.open("freshet");
+  CHECK(about.text("scene") == scene);
+  CHECK(about.text_attribute("version") == "1.2.3");
+  CHECK(about.text_attribute("units").find("depth m") != std::string::npos);
+}
+
+TEST_CASE("particle files are cut and continued") {
+  const test::Scratch scratch;
+  const ParticleFile file(scratch / "particles.h5part");
+  const auto fields = three_particles(true);
+  file.create("", "0.1");
+  for (int k = 0; k < 12; ++k) file.append(k, 0.1 * k, fields);
+  file.truncate(3);
+  file.append(3, 9.0, fields);
+  const auto steps = list_particle_steps(scratch / "particles.h5part");
+  REQUIRE(steps.size() == 4);  // in the order of their numbers: 0, 1, 2, 3
+  CHECK(steps[2].t == 0.1 * 2);
+  CHECK(steps[3].step == 3);
+  CHECK(steps[3].t == 9.0);
+}
+
+TEST_CASE("empty particle sets can be written and read") {
+  const test::Scratch scratch;
+  FieldSet fields(0);
+  for (const char* name : {"x", "u", "depth"}) fields.real(name, "m", Carry::state);
+  fields.integer("id", "1", Carry::state);
+  const ParticleFile file(scratch / "particles.h5part");
+  file.create("", "0.1");
+  file.append(0, 0, fields);
+  CHECK(read_particle_step(scratch / "particles.h5part", 0).x.empty());
+}
+
+TEST_CASE("particle file errors name the file and the step") {
+  const test::Scratch scratch;
+  const std::string path = scratch / "particles.h5part";
+  CHECK_THROWS_AS(list_particle_steps(path), IoError);
+  ParticleFile(path).create("", "0.1");
+  CHECK_THROWS_WITH(read_particle_step(path, 4), Catch::Contains(path) && Catch::Contains("no step 4"));
+}

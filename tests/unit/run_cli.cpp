@@ -1,0 +1,227 @@
+// The command line: exit codes, refusals, suggestions, interruption.
+#include <catch2/catch.hpp>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <stdexcept>
+
+#include "src/errors.hpp"
+#include "src/io/files.hpp"
+#include "src/run/cli.hpp"
+#include "tests/support/fake_method.hpp"
+#include "tests/support/scratch.hpp"
+
+using namespace freshet;
+namespace fs = std::filesystem;
+using Catch::Contains;
+
+namespace {
+
+// The fake method behind the real command line; `prepare` sees each method before it runs.
+Parts fake_parts(std::function<void(test::FakeMethod&)> prepare = {}) {
+  Parts parts;
+  parts.read = [](const std::string& path, const std::vector<std::string>& overrides) {
+    if (!overrides.empty()) throw SceneError(path + ":1:1: error: unknown key '" + overrides[0] + "'");
+    Scene scene = test::fake_scene();
+    scene.file = path;
+    return scene;
+  };
+  parts.read_again = [](const std::string&, const std::string&) { return test::fake_scene(); };
+  parts.make = [prepare](const Scene& scene) {
+    auto method = std::make_unique<test::FakeMethod>(scene);
+    if (prepare) prepare(*method);
+    return method;
+  };
+  parts.describe = [](const Scene& scene) { return std::vector<std::string>{"scene       " + scene.name}; };
+  return parts;
+}
+
+struct Result {
+  int code;
+  std::string out, err;
+};
+
+// Sends a standard stream to a file for the length of a scope.
+class Redirect {
+ public:
+  Redirect(std::FILE* stream, const std::string& path) : stream_(stream), saved_(::dup(::fileno(stream))) {
+    std::fflush(stream_);
+    const int file = ::open(path.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600);
+    ::dup2(file, ::fileno(stream_));
+    ::close(file);
+  }
+  ~Redirect() {
+    std::fflush(stream_);
+    ::dup2(saved_, ::fileno(stream_));
+    ::close(saved_);
+  }
+
+ private:
+  std::FILE* stream_;
+  int saved_;
+};
+
+Result freshet_with(const Parts& parts, std::vector<std::string> words) {
+  const test::Scratch scratch;
+  words.insert(words.begin(), "freshet");
+  std::vector<char*> argv;
+  for (auto& word : words) argv.push_back(word.data());
+  Result result{};
+  {
+    const Redirect out(stdout, scratch / "out"), err(stderr, scratch / "err");
+    result.code = run_cli(static_cast<int>(argv.size()), argv.data(), parts);
+  }
+  result.out = read_text(scratch / "out");
+  result.err = read_text(scratch / "err");
+  return result;
+}
+
+Result freshet_with(std::vector<std::string> words) { return freshet_with(fake_parts(), std::move(words)); }
+
+// A scene file for the fake reader, which does not look into it.
+std::string scene_in(const test::Scratch& scratch) {
+  write_text(scratch / "scene.toml", "");
+  return scratch / "scene.toml";
+}
+
+}  // namespace
+
+TEST_CASE("a finished run exits with 0 and leaves all its files") {
+  const test::Scratch scratch;
+  const Result run = freshet_with({"run", scene_in(scratch), "--out", scratch / "results"});
+  CHECK(run.code == 0);
+  CHECK_THAT(run.out, Contains("middle") && Contains("shore") && Contains("particle-steps/s"));
+  for (const char* name : {"particles.h5part", "gauges.csv", "summary.json", "state.h5"}) {
+    CHECK(fs::exists(scratch / ("results/" + std::string(name))));
+  }
+  const Result again = freshet_with({"resume", scratch / "results"});
+  CHECK(again.code == 0);
+  CHECK_THAT(again.out, Contains("complete"));
+}
+
+TEST_CASE("--quiet prints nothing") {
+  const test::Scratch scratch;
+  const Result run = freshet_with({"run", scene_in(scratch), "--quiet", "--out=" + (scratch / "results")});
+  CHECK(run.code == 0);
+  CHECK(run.out.empty());
+  CHECK(run.err.empty());
+}
+
+TEST_CASE("a directory that holds results is refused unless --overwrite is given") {
+  const test::Scratch scratch;
+  const std::string scene = scene_in(scratch), results = scratch / "results";
+  fs::create_directory(results);
+  write_text(results + "/gauges.csv", "precious");
+  write_text(results + "/notes.txt", "mine");
+  const Result refused = freshet_with({"run", scene, "--out", results});
+  CHECK(refused.code == 2);
+  CHECK_THAT(refused.err, Contains(results) && Contains("gauges.csv") && Contains("--overwrite"));
+  CHECK(read_text(results + "/gauges.csv") == "precious");
+  CHECK(freshet_with({"run", scene, "--out", results, "--overwrite"}).code == 0);
+  CHECK(read_text(results + "/notes.txt") == "mine");  // only results are replaced
+}
+
+TEST_CASE("mistakes on the command line exit with 2 and a suggestion") {
+  const test::Scratch scratch;
+  const std::string scene = scene_in(scratch);
+  CHECK_THAT(freshet_with({"rum", scene}).err, Contains("did you mean 'run'?"));
+  CHECK(freshet_with({"rum", scene}).code == 2);
+  CHECK(freshet_with({}).code == 2);
+  CHECK(freshet_with({"run"}).code == 2);
+  CHECK(freshet_with({"run", scene, "too many"}).code == 2);
+  const Result option = freshet_with({"run", scene, "--ouput", "x"});
+  CHECK(option.code == 2);
+  CHECK_THAT(option.err, Contains("did you mean"));
+  CHECK(freshet_with({"run", scene, "--threads", "two"}).code == 2);
+  CHECK(freshet_with({"run", scene, "--out"}).code == 2);
+  CHECK(freshet_with({"run", scene, "--quiet=yes"}).code == 2);
+  CHECK(freshet_with({"run", scratch / "missing.toml"}).code == 2);
+  CHECK(freshet_with({"resume", scratch.path()}).code == 2);
+  CHECK(freshet_with({"points", scratch.path()}).code == 2);
+}
+
+TEST_CASE("the reader's own messages are printed as they are") {
+  const test::Scratch scratch;
+  const Result run = freshet_with({"run", scene_in(scratch), "water.spacin=1"});
+  CHECK(run.code == 2);
+  CHECK(run.err == (scratch / "scene.toml") + ":1:1: error: unknown key 'water.spacin=1'\n");
+}
+
+TEST_CASE("each failure has its exit code") {
+  const test::Scratch scratch;
+  const std::string scene = scene_in(scratch);
+  const auto code = [&](Parts parts, const std::string& out) {
+    return freshet_with(parts, {"run", scene, "--out", scratch / out}).code;
+  };
+  Parts data = fake_parts();
+  data.read = [](const std::string&, const std::vector<std::string>&) -> Scene { throw DataError("no such file"); };
+  CHECK(code(data, "a") == 3);
+  CHECK(code(fake_parts([](auto& m) { m.trouble = {test::Trouble::Kind::fast, 5, 1}; }), "b") == 4);
+  CHECK(code(fake_parts(), "scene.toml") == 5);        // a file where the directory should be
+  CHECK(code(fake_parts(), "scene.toml/below") == 5);
+  const Parts broken = fake_parts([](auto& m) { m.on_step = [](long) { throw std::logic_error("two and two"); }; });
+  CHECK(code(broken, "c") == 1);
+  const Result told = freshet_with(broken, {"run", scene, "--out", scratch / "d"});
+  CHECK_THAT(told.err, Contains("internal error: two and two") && Contains("please report"));
+}
+
+TEST_CASE("SIGINT and SIGTERM finish the step, write the state and exit with 130; the run can be resumed") {
+  const test::Scratch scratch;
+  const int signal = GENERATE(SIGINT, SIGTERM);
+  const std::string results = scratch / "results";
+  const auto interrupt = [signal](auto& method) {
+    method.on_step = [signal](long step) {
+      if (step == 40) std::raise(signal);
+    };
+  };
+  const Result run = freshet_with(fake_parts(interrupt), {"run", scene_in(scratch), "--out", results});
+  CHECK(run.code == 130);
+  CHECK_THAT(run.out, Contains("step 40") && Contains("freshet resume " + results));
+  CHECK_FALSE(fs::exists(results + "/summary.json"));
+  const Result resumed = freshet_with({"resume", results});
+  CHECK(resumed.code == 0);
+  CHECK(fs::exists(results + "/summary.json"));
+}
+
+TEST_CASE("an echo of the signal does not kill the run before its state is written") {
+  const test::Scratch scratch;
+  const auto interrupt = [](auto& method) {
+    method.on_step = [](long step) {
+      if (step == 40) std::raise(SIGTERM), std::raise(SIGTERM);  // as timeout(1) does
+    };
+  };
+  CHECK(freshet_with(fake_parts(interrupt), {"run", scene_in(scratch), "--out", scratch / "r"}).code == 130);
+  CHECK(fs::exists(scratch / "r/state.h5"));
+}
+
+TEST_CASE("points prints the particles of an output") {
+  const test::Scratch scratch;
+  REQUIRE(freshet_with({"run", scene_in(scratch), "--out", scratch / "r", "--quiet"}).code == 0);
+  const Result list = freshet_with({"points", scratch / "r", "--list"});
+  CHECK(list.out == "step,t [s]\n0,0\n1,0.25\n2,0.5\n3,0.75\n4,1\n");
+  const Result first = freshet_with({"points", scratch / "r", "--step", "0"});
+  CHECK(first.code == 0);
+  CHECK(first.out.rfind("x [m],y [m],z [m],depth [m],v_0 [m/s],v_1 [m/s]\n0.025,0.025,1.0025", 0) == 0);
+  CHECK(std::count(first.out.begin(), first.out.end(), '\n') == 401);
+  CHECK(freshet_with({"points", scratch / "r", "--step", "0", "--csv", scratch / "p.csv"}).code == 0);
+  CHECK(read_text(scratch / "p.csv") == first.out);
+  CHECK(freshet_with({"points", scratch / "r", "--step", "9"}).code == 2);
+  CHECK(freshet_with({"points", scratch / "r", "--csv", scratch / "no/p.csv"}).code == 5);
+  CHECK(freshet_with({"points", scratch / "r", "--csv", "/dev/full"}).code == 5);
+}
+
+TEST_CASE("check, list, version and help") {
+  const test::Scratch scratch;
+  const Result check = freshet_with({"check", scene_in(scratch)});
+  CHECK(check.code == 0);
+  // 200 steps of 0.1 dx = 0.005 s to 1 s.
+  CHECK_THAT(check.out, Contains("scene       fake") && Contains("particles   400") && Contains("about 200 of 0.005 s") &&
+                            Contains("flight"));
+  CHECK(freshet_with({"list"}).code == 0);
+  CHECK_THAT(freshet_with({"--version"}).out, Contains("backend") && Contains("compiler") && Contains("threads"));
+  CHECK_THAT(freshet_with({"--help"}).out, Contains("examples:") && Contains("exit codes:"));
+  CHECK(freshet_with({"run", "--help"}).code == 0);
+}

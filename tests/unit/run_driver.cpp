@@ -1,0 +1,138 @@
+// The loop: what is written when, and what is left behind by a run that diverges.
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+
+#include "src/errors.hpp"
+#include "src/io/files.hpp"
+#include "src/reference/exact.hpp"
+#include "src/run/driver.hpp"
+#include "tests/support/fake_method.hpp"
+#include "tests/support/scratch.hpp"
+
+using namespace freshet;
+namespace fs = std::filesystem;
+
+namespace {
+
+class Still : public Exact {
+ public:
+  FlowState at(double, double, double) const override { return {1, 0, 0}; }
+};
+
+std::vector<double> output_times(const test::Scratch& scratch) {
+  std::vector<double> times;
+  for (const auto& step : list_particle_steps(scratch / "particles.h5part")) times.push_back(step.t);
+  return times;
+}
+
+}  // namespace
+
+TEST_CASE("a run writes its outputs exactly on time") {
+  const test::Scratch scratch;
+  const Scene scene = test::fake_scene();
+  test::FakeMethod method(scene);
+  Driver driver(scene, method, {scratch.path()});
+  driver.begin();
+  CHECK(driver.run());
+  CHECK(output_times(scratch) == std::vector<double>{0, 0.25, 0.5, 0.75, 1});
+  CHECK(fs::exists(scratch / "state.h5"));
+  CHECK_FALSE(fs::exists(scratch / "measured.csv"));
+
+  const Summary summary = driver.summary();
+  CHECK(summary.simulated == 1.0);
+  CHECK(summary.steps == driver.clock().step);
+  CHECK(summary.initial_particles == 400);
+  CHECK(summary.final_particles == 400);
+  CHECK(summary.mass.relative_error == 0);  // the fake method never touches the mass
+  CHECK(summary.particle_steps_per_s > 0);
+  REQUIRE(summary.gauges.size() == 1);
+  CHECK(summary.gauges[0].peak >= 1);
+  CHECK_FALSE(summary.compared);
+}
+
+TEST_CASE("a scene without an output interval writes its first and last state") {
+  const test::Scratch scratch;
+  Scene scene = test::fake_scene(1);
+  scene.output = {};
+  test::FakeMethod method(scene);
+  Driver driver(scene, method, {scratch.path()});
+  driver.begin();
+  CHECK(driver.run());
+  CHECK(output_times(scratch) == std::vector<double>{0, 1});
+}
+
+TEST_CASE("depth_l1_rel is the median over the comparison times") {
+  const test::Scratch scratch;
+  Scene scene = test::fake_scene(1);
+  scene.compare.exact = std::make_shared<Still>();
+  scene.compare.samples = 3;
+  scene.compare.window = 0.4;
+  test::FakeMethod method(scene);
+  std::vector<double> l1;
+  double t = 0;
+  method.on_step = [&](long) { t += 1; };
+  Driver driver(scene, method, {scratch.path()});
+  driver.begin();
+  CHECK(driver.run());
+  const Values run = read_checkpoint(scratch / "state.h5").run;
+  REQUIRE(run.at("depth_l1_rel").size() == 3);
+  auto samples = run.at("depth_l1_rel");
+  std::sort(samples.begin(), samples.end());
+  CHECK(samples[0] < samples[2]);  // three different times
+  CHECK(driver.summary().errors.depth_l1_rel == samples[1]);
+  CHECK(driver.summary().errors.depth_l2_rel > 0);
+}
+
+TEST_CASE("a run that diverges leaves its state beside the last good checkpoint") {
+  const test::Scratch scratch;
+  Scene scene = test::fake_scene();
+  scene.output.checkpoint_every = 1e-9;  // after every step
+  test::FakeMethod method(scene);
+  method.trouble = {test::Trouble::Kind::not_a_number, 60, 3};
+  Driver driver(scene, method, {scratch.path()});
+  driver.begin();
+  CHECK_THROWS_WITH(driver.run(), Catch::Contains("particle 3") && Catch::Contains("diverged.h5"));
+  CHECK(read_checkpoint(scratch / "state.h5").run.at("clock")[1] == 59);
+  CHECK(read_checkpoint(scratch / "diverged.h5").run.at("clock")[1] == 60);
+  CHECK(list_particle_steps(scratch / "particles.h5part").back().t == driver.clock().t);
+}
+
+TEST_CASE("a collapsed time step ends the run") {
+  const test::Scratch scratch;
+  const Scene scene = test::fake_scene(1);
+  test::FakeMethod method(scene);
+  method.trouble = {test::Trouble::Kind::no_dt, 10, 0};
+  Driver driver(scene, method, {scratch.path()});
+  driver.begin();
+  CHECK_THROWS_WITH(driver.run(), Catch::Contains("stable time step is 0 s"));
+}
+
+TEST_CASE("a full or lost directory in the middle of a run is an input-output error and spares the last checkpoint") {
+  const test::Scratch scratch;
+  Scene scene = test::fake_scene(1);
+  scene.output.checkpoint_every = 1e-9;
+  test::FakeMethod method(scene);
+  method.on_step = [&](long step) {
+    if (step == 30) fs::create_directory(scratch / "state.h5.new");
+  };
+  Driver driver(scene, method, {scratch.path()});
+  driver.begin();
+  CHECK_THROWS_AS(driver.run(), IoError);
+  CHECK(read_checkpoint(scratch / "state.h5").run.at("clock")[1] == 29);
+}
+
+TEST_CASE("progress: ten plain lines elsewhere than on a terminal") {
+  const test::Scratch scratch;
+  const Scene scene = test::fake_scene(1);
+  test::FakeMethod method(scene);
+  std::FILE* log = std::fopen((scratch / "log").c_str(), "w");
+  Driver driver(scene, method, {scratch.path(), log});
+  driver.begin();
+  CHECK(driver.run());
+  std::fclose(log);
+  const std::string text = read_text(scratch / "log");
+  CHECK(std::count(text.begin(), text.end(), '\n') == 10);
+  CHECK(text.find("100.0 %  t 1 s") != std::string::npos);
+  CHECK(text.find('\r') == std::string::npos);
+}
