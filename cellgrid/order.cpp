@@ -6,21 +6,24 @@
 namespace freshet {
 namespace {
 
+// The particles' bounding box; without y its y is zero.
 struct Extent {
-  double low, high;  // m
+  double xlo = 0, xhi = 0, ylo = 0, yhi = 0;  // m
 };
 
-Extent extent_of(const Field<double>& x, const Field<int>& id, int n) {
-  Extent e{};
+Extent extent_of(const Field<double>& x, const Field<double>& y, const Field<int>& id, int n) {
+  const bool plane = y.extent(0) > 0;
+  Extent e;
   Kokkos::parallel_reduce(
       "cellgrid::extent", Range(0, n),
-      KOKKOS_LAMBDA(int i, double& low, double& high) {
+      KOKKOS_LAMBDA(int i, double& xlo, double& xhi, double& ylo, double& yhi) {
         if (id(i) < 0) return;
-        low = smaller(low, x(i));
-        high = larger(high, x(i));
+        const double px = x(i), py = plane ? y(i) : 0.0;
+        xlo = smaller(xlo, px), xhi = larger(xhi, px);
+        ylo = smaller(ylo, py), yhi = larger(yhi, py);
       },
-      Kokkos::Min<double>(e.low), Kokkos::Max<double>(e.high));
-  return e.low <= e.high ? e : Extent{0, 0};
+      Kokkos::Min<double>(e.xlo), Kokkos::Max<double>(e.xhi), Kokkos::Min<double>(e.ylo), Kokkos::Max<double>(e.yhi));
+  return e.xlo <= e.xhi ? e : Extent{};
 }
 
 template <class View>
@@ -47,18 +50,20 @@ RowOrder::RowOrder(int dimension, double spacing) : dimension_(dimension), spaci
 
 void RowOrder::lay_grid(const FieldSet& particles) {
   const int n = particles.size();
-  const Extent ex = extent_of(x_, id_, n), ey = dimension_ == 2 ? extent_of(y_, id_, n) : Extent{0, 0};
-  const double longest = std::max({ex.high - ex.low, ey.high - ey.low, spacing_});
-  if (!std::isfinite(longest)) return;  // a lost particle: keep the last grid, the monitor reports it
-  rows_.x0 = ex.low;
-  rows_.y0 = ey.low;
+  const Extent e = extent_of(x_, y_, id_, n);
+  const double width = e.xhi - e.xlo, height = e.yhi - e.ylo;
+  if (!std::isfinite(width + height)) return;  // a lost particle: keep the last grid, the monitor reports it
+  rows_.x0 = e.xlo;
+  rows_.y0 = e.ylo;
   rows_.row_height = 2 * spacing_;
   rows_.bin_width = 0.5 * spacing_;
   const double most = 8.0 * n + 1024;  // a stray particle must not make a huge grid
-  while ((ey.high - ey.low) / rows_.row_height > most) rows_.row_height *= 2;
-  rows_.rows = cells(ey.high - ey.low, rows_.row_height);
-  while ((ex.high - ex.low) / rows_.bin_width * rows_.rows > most) rows_.bin_width *= 2;
-  rows_.bins = cells(ex.high - ex.low, rows_.bin_width);
+  while (height / rows_.row_height > most) rows_.row_height *= 2;
+  rows_.rows = cells(height, rows_.row_height);
+  while (width / rows_.bin_width * rows_.rows > most) rows_.bin_width *= 2;
+  rows_.bins = cells(width, rows_.bin_width);
+  rows_.per_row_height = 1 / rows_.row_height;
+  rows_.per_bin_width = 1 / rows_.bin_width;
 }
 
 void RowOrder::count_bins(const FieldSet& particles) {

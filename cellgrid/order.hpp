@@ -9,7 +9,8 @@ namespace freshet {
 // The sorted particles' rows and bins, as the device sees them.
 struct Rows {
   double x0 = 0, y0 = 0;                // m, corner
-  double bin_width = 1, row_height = 1; // m
+  double bin_width = 1, row_height = 1;           // m
+  double per_bin_width = 1, per_row_height = 1;   // 1/m
   int rows = 0, bins = 0;               // rows, and bins in each
   Field<int> start;                     // first particle of bin b of row r at [r * bins + b]; rows * bins + 1 entries
 
@@ -17,12 +18,11 @@ struct Rows {
   int tiles_x = 0, tiles_y = 0;
   Field<double> reach;                  // m, largest h of a tile and its eight neighbours
 
-  KOKKOS_FORCEINLINE_FUNCTION int bin_of(double x) const { return cell(x - x0, bin_width, bins); }
-  KOKKOS_FORCEINLINE_FUNCTION int row_of(double y) const { return cell(y - y0, row_height, rows); }
+  KOKKOS_FORCEINLINE_FUNCTION int bin_of(double x) const { return cell((x - x0) * per_bin_width, bins); }
+  KOKKOS_FORCEINLINE_FUNCTION int row_of(double y) const { return cell((y - y0) * per_row_height, rows); }
 
   // Clamped to the grid; a NaN lands in the last cell.
-  static KOKKOS_FORCEINLINE_FUNCTION int cell(double offset, double width, int n) {
-    const double c = offset / width;
+  static KOKKOS_FORCEINLINE_FUNCTION int cell(double c, int n) {
     return c < n - 1 ? (c > 0 ? static_cast<int>(c) : 0) : n - 1;
   }
 

@@ -142,9 +142,69 @@ using Lane = pack<double, lanes>;
 KOKKOS_FORCEINLINE_FUNCTION Lane root(Lane a) { return sqrt(a); }
 #endif
 
+// Whole numbers per lane, for table look-ups.
+#if defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP) || defined(FRESHET_SCALAR)
+using LaneIndex = int;
+#else
+using LaneIndex = pack<int, lanes>;
+#endif
+
+// Cut towards zero.
+KOKKOS_FORCEINLINE_FUNCTION int to_index(double a) { return static_cast<int>(a); }
+KOKKOS_FORCEINLINE_FUNCTION double to_real(int a) { return a; }
+KOKKOS_FORCEINLINE_FUNCTION double gather(const double* table, int index) { return table[index]; }
+// a^(-1/3), a > 0
+KOKKOS_FORCEINLINE_FUNCTION double inverse_cbrt(double a) { return 1.0 / ::cbrt(a); }
+
+#if !defined(KOKKOS_ENABLE_CUDA) && !defined(KOKKOS_ENABLE_HIP)
+template <int W>
+pack<int, W> to_index(pack<double, W> a) {
+  return __builtin_convertvector(a.v, typename pack<int, W>::Vector);
+}
+template <int W>
+pack<double, W> to_real(pack<int, W> a) {
+  return __builtin_convertvector(a.v, typename pack<double, W>::Vector);
+}
+#ifdef FRESHET_AVX512
+inline double8 gather(const double* table, pack<int, 8> index) {
+  return double8::Vector(_mm512_mask_i32gather_pd(_mm512_setzero_pd(), all_lanes, (__m256i)index.v, table, 8));
+}
+#else
+template <int W>
+pack<double, W> gather(const double* table, pack<int, W> index) {
+  pack<double, W> value;
+  for (int l = 0; l < W; ++l) value.set(l, table[index[l]]);
+  return value;
+}
+#endif
+// A third of the exponent, taken on the bits read as a number (3.5 % off), then Newton's method, which squares the error.
+template <int W>
+pack<double, W> inverse_cbrt(pack<double, W> a) {
+  using Bits = typename vector_of<long long, W>::type;
+  using Reals = typename pack<double, W>::Vector;
+  constexpr double zero_exponent = 1023.0 * 4503599627370496.0;  // the bits of 1.0
+  const Reals third = (4.0 / 3.0 * zero_exponent) - __builtin_convertvector((Bits)a.v, Reals) * (1.0 / 3.0);
+  pack<double, W> y = (Reals)__builtin_convertvector(third, Bits);
+  for (int n = 0; n < 4; ++n) y = y * (4.0 / 3.0 - (1.0 / 3.0) * a * y * y * y);
+  return y;
+}
+#endif
+
 // Added to r^2 so that a particle's pair with itself has a finite 1/r (and no effect, since x_ij = 0). Large enough that
 // rsqrt's intermediate squares stay finite when r^2 is multiplied by small densities squared.
 inline constexpr double tiny_square = 1e-200;
+
+// Single lanes, for what has no vector form.
+template <class T, int W>
+T lane_of(const pack<T, W>& a, int lane) {
+  return a[lane];
+}
+template <class T, int W>
+void set_lane(pack<T, W>& a, int lane, T value) {
+  a.set(lane, value);
+}
+KOKKOS_FORCEINLINE_FUNCTION double lane_of(double a, int) { return a; }
+KOKKOS_FORCEINLINE_FUNCTION void set_lane(double& a, int, double value) { a = value; }
 
 template <class V>
 KOKKOS_FORCEINLINE_FUNCTION V clamp(V value, V low, V high) {

@@ -9,24 +9,25 @@
 
 namespace freshet {
 
-template <int D>
+template <class V, int D>
 struct BedPoint {
-  double b;                   // m, upwards
-  Vec<double, D> slope;       // grad b
-  Sym<double, D> curvature;   // 1/m
+  V b{0.0};               // m, upwards
+  Vec<V, D> slope;        // grad b
+  Sym<V, D> curvature;    // 1/m
 };
 
 // Cubic B-spline weights of the four nodes around a fraction f in [0, 1) of a cell, and their first and second derivatives.
+template <class V>
 struct SplineWeights {
-  double w[4], d[4], dd[4];
-  explicit KOKKOS_FORCEINLINE_FUNCTION SplineWeights(double f) {
-    const double g = 1 - f, f2 = f * f, g2 = g * g;
-    w[0] = g2 * g / 6, w[3] = f2 * f / 6;
-    w[1] = 2.0 / 3 - f2 + 0.5 * f2 * f, w[2] = 2.0 / 3 - g2 + 0.5 * g2 * g;
+  V w[4], d[4], dd[4];
+  explicit KOKKOS_FORCEINLINE_FUNCTION SplineWeights(V f) {
+    const V g = 1.0 - f, f2 = f * f, g2 = g * g;
+    w[0] = (1.0 / 6) * g2 * g, w[3] = (1.0 / 6) * f2 * f;
+    w[1] = 2.0 / 3 - f2 + 3.0 * w[3], w[2] = 2.0 / 3 - g2 + 3.0 * w[0];
     d[0] = -0.5 * g2, d[3] = 0.5 * f2;
-    d[1] = -2 * f + 1.5 * f2, d[2] = 2 * g - 1.5 * g2;
+    d[1] = 1.5 * f2 - 2.0 * f, d[2] = 2.0 * g - 1.5 * g2;
     dd[0] = g, dd[3] = f;
-    dd[1] = -2 + 3 * f, dd[2] = -2 + 3 * g;
+    dd[1] = 3.0 * f - 2.0, dd[2] = 3.0 * g - 2.0;
   }
 };
 
@@ -42,40 +43,47 @@ class BedSpline {
   // Samples level(x, y) [m] on the lattice.
   BedSpline(const std::function<double(double, double)>& level, const Lattice& lattice);
 
-  KOKKOS_INLINE_FUNCTION BedPoint<D> at(const Vec<double, D>& p) const {
-    int i = 0, j = 0;
-    const SplineWeights a(locate((p.x - x0_) * inv_spacing_, nx_, i));
-    BedPoint<D> s{};
-    if constexpr (D == 1) {
-      for (int k = 0; k < 4; ++k) {
-        const double c = level_(i + k);
-        s.b += a.w[k] * c;
-        s.slope.x += a.d[k] * c;
-        s.curvature.xx += a.dd[k] * c;
-      }
-    } else {
-      const SplineWeights b(locate((p.y - y0_) * inv_spacing_, ny_, j));
-      for (int l = 0; l < 4; ++l) {
-        double row = 0, row_d = 0, row_dd = 0;
-        for (int k = 0; k < 4; ++k) {
-          const double c = level_((j + l) * nx_ + i + k);
-          row += a.w[k] * c;
-          row_d += a.d[k] * c;
-          row_dd += a.dd[k] * c;
-        }
-        s.b += b.w[l] * row;
-        s.slope.x += b.w[l] * row_d;
-        s.slope.y += b.d[l] * row;
-        s.curvature.xx += b.w[l] * row_dd;
-        s.curvature.xy += b.d[l] * row_d;
-        s.curvature.yy += b.dd[l] * row;
-      }
-      s.slope.y *= inv_spacing_;
-      s.curvature.xy *= inv_spacing_ * inv_spacing_;
-      s.curvature.yy *= inv_spacing_ * inv_spacing_;
+  // V: double, or a pack for the particles of a cluster.
+  template <class V>
+  KOKKOS_INLINE_FUNCTION BedPoint<V, 1> at(const Vec<V, 1>& p) const {
+    const auto i = first_node((p.x - x0_) * inv_spacing_, nx_);
+    const SplineWeights<V> a((p.x - x0_) * inv_spacing_ - to_real(i) - 1.0);
+    BedPoint<V, 1> s;
+    for (int k = 0; k < 4; ++k) {
+      const V c = gather(level_.data() + k, i);
+      s.b += a.w[k] * c;
+      s.slope.x += a.d[k] * c;
+      s.curvature.xx += a.dd[k] * c;
     }
     s.slope.x *= inv_spacing_;
     s.curvature.xx *= inv_spacing_ * inv_spacing_;
+    return s;
+  }
+
+  template <class V>
+  KOKKOS_INLINE_FUNCTION BedPoint<V, 2> at(const Vec<V, 2>& p) const {
+    const auto i = first_node((p.x - x0_) * inv_spacing_, nx_), j = first_node((p.y - y0_) * inv_spacing_, ny_);
+    const SplineWeights<V> a((p.x - x0_) * inv_spacing_ - to_real(i) - 1.0), b((p.y - y0_) * inv_spacing_ - to_real(j) - 1.0);
+    const auto corner = j * nx_ + i;
+    BedPoint<V, 2> s;
+    for (int l = 0; l < 4; ++l) {
+      V row(0.0), row_d(0.0), row_dd(0.0);
+      for (int k = 0; k < 4; ++k) {
+        const V c = gather(level_.data() + l * nx_ + k, corner);
+        row += a.w[k] * c;
+        row_d += a.d[k] * c;
+        row_dd += a.dd[k] * c;
+      }
+      s.b += b.w[l] * row;
+      s.slope.x += b.w[l] * row_d;
+      s.slope.y += b.d[l] * row;
+      s.curvature.xx += b.w[l] * row_dd;
+      s.curvature.xy += b.d[l] * row_d;
+      s.curvature.yy += b.dd[l] * row;
+    }
+    const double per = inv_spacing_, per2 = per * per;
+    s.slope = V(per) * s.slope;
+    s.curvature.xx *= per2, s.curvature.xy *= per2, s.curvature.yy *= per2;
     return s;
   }
 
@@ -83,11 +91,10 @@ class BedSpline {
   int points() const { return nx_ * ny_; }
 
  private:
-  // First of the four nodes and the fraction between the middle two; beyond the lattice the rim's cubic goes on.
-  static KOKKOS_FORCEINLINE_FUNCTION double locate(double s, int n, int& first) {
-    const double cell = s > 1 ? (s < n - 3 ? floor(s) : n - 3) : 1;
-    first = static_cast<int>(cell) - 1;
-    return clamp(s - cell, -1.0, 2.0);
+  // First of the four nodes around the coordinate s (in spacings); beyond the lattice the rim's cubic goes on.
+  template <class V>
+  static KOKKOS_FORCEINLINE_FUNCTION auto first_node(V s, int n) {
+    return to_index(clamp(s - 1.0, V(0.0), V(n - 4.0)));
   }
 
   double x0_ = 0, y0_ = 0, inv_spacing_ = 1;

@@ -142,33 +142,52 @@ void Walls<D>::find(const ClusterSet& clusters, const VecField<double, D>& x, co
   near_.build<D>(clusters, {x, h, order_.rows(), view().x, points_.real("h"), 1.0, margin});
 }
 
+namespace {
+
+// How far a position lies on the water's side of a segment; nothing where the segment does not catch it.
 template <int D>
-void Walls<D>::reflect(const VecField<double, D>& x, const VecField<double, D>& v, const VecField<double, D>& v_pred,
-                       int n) const {
+KOKKOS_INLINE_FUNCTION double behind(const WallSegment& s, const Vec<double, D>& p, double deepest) {
+  double inside = (p.x - s.a[0]) * s.normal[0], along = 0;
+  if constexpr (D == 2) {
+    inside += (p.y - s.a[1]) * s.normal[1];
+    along = (p.x - s.a[0]) * s.tangent[0] + (p.y - s.a[1]) * s.tangent[1];
+  }
+  const bool caught = inside < 0 && inside > -deepest && along >= -s.before && along <= s.length + s.after;
+  return caught ? -inside : 0.0;
+}
+
+template <int D>
+KOKKOS_INLINE_FUNCTION Vec<double, D> normal_of(const WallSegment& s) {
+  Vec<double, D> n;
+  n.x = s.normal[0];
+  if constexpr (D == 2) n.y = s.normal[1];
+  return n;
+}
+
+}  // namespace
+
+template <int D>
+void Walls<D>::reflect(const ClusterSet& clusters, const VecField<double, D>& x, const VecField<double, D>& v,
+                       const VecField<double, D>& v_pred) const {
   const auto segments = segments_;
   const int count = segments.extent_int(0);
   const double deepest = depth_;
-  Kokkos::parallel_for("walls::reflect", Range(0, n), KOKKOS_LAMBDA(int i) {
-        for (int k = 0; k < count; ++k) {
-          const WallSegment s = segments(k);
-          Vec<double, D> p = at(x, i), normal, from_a;
-          normal.x = s.normal[0];
-          from_a.x = p.x - s.a[0];
-          double along = 0;
-          if constexpr (D == 2) {
-            normal.y = s.normal[1];
-            from_a.y = p.y - s.a[1];
-            along = from_a.x * s.tangent[0] + from_a.y * s.tangent[1];
+  const NeighbourView near = near_.view();
+  const ClusterSet sets = clusters;
+  Kokkos::parallel_for("walls::reflect", Range(0, clusters.size()), KOKKOS_LAMBDA(int c) {
+        if (near.length(c) == 0) return;
+        const Lanes me = sets(c);
+        for (int i = me.first; i < me.first + me.count; ++i)
+          for (int k = 0; k < count; ++k) {
+            const double depth = behind<D>(segments(k), at(x, i), deepest);
+            if (depth <= 0) continue;
+            const Vec<double, D> normal = normal_of<D>(segments(k));
+            put(x, i, at(x, i) + (2 * depth) * normal);
+            for (const VecField<double, D>& velocity : {v, v_pred}) {
+              const double outward = smaller(dot(at(velocity, i), normal), 0.0);
+              put(velocity, i, at(velocity, i) + (-2 * outward) * normal);
+            }
           }
-          const double inside = dot(from_a, normal);
-          if (inside >= 0 || inside < -deepest || along < -s.before || along > s.length + s.after) continue;
-          put(x, i, p + (-2.0 * inside) * normal);
-          for (const VecField<double, D>& velocity : {v, v_pred}) {
-            const Vec<double, D> w = at(velocity, i);
-            const double outward = smaller(dot(w, normal), 0.0);
-            put(velocity, i, w + (-2.0 * outward) * normal);
-          }
-        }
       });
 }
 

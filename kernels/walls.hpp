@@ -62,8 +62,10 @@ class Walls {
   // Lists the wall points within h (1 + margin) of each cluster.
   void find(const ClusterSet& clusters, const VecField<double, D>& x, const Field<double>& h, double margin);
 
-  // Puts particles that crossed a wall back: position and normal velocity reflected.
-  void reflect(const VecField<double, D>& x, const VecField<double, D>& v, const VecField<double, D>& v_pred, int n) const;
+  // Puts particles that crossed a wall back: position and normal velocity reflected. clusters: those of the last find();
+  // only particles that were near a wall then are looked at, since none moves further than a fraction of h in a step.
+  void reflect(const ClusterSet& clusters, const VecField<double, D>& x, const VecField<double, D>& v,
+               const VecField<double, D>& v_pred) const;
 
   WallView<D> view() const;
   int points() const { return points_.size(); }

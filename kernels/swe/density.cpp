@@ -73,7 +73,7 @@ struct SolveDensity {
   NeighbourView near;
   WallView<D> walls;
   Particles<D> p;
-  Field<int> kind;
+  ImposedLanes imposed_lanes;
   DensityOptions options;
 
   KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 1> spread(const Vec<double, 1>& a) const { return {Lane(a.x)}; }
@@ -105,21 +105,6 @@ struct SolveDensity {
   KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 2> broadcast(const SymField<double, 2>& f, int k) const {
     return {Lane(f.xx(k)), Lane(f.xy(k)), Lane(f.yy(k))};
   }
-
-  // 1 for particles whose state is imposed.
-  KOKKOS_INLINE_FUNCTION Lane imposed_lanes(const Lanes& me) const {
-    Lane value(0.0);
-    if (options.imposed)
-      for (int l = 0; l < lanes; ++l) set_lane(value, l, kind(me.particle(l)) != 0 ? 1.0 : 0.0);
-    return value;
-  }
-  static KOKKOS_FORCEINLINE_FUNCTION void set_lane(double& value, int, double x) { value = x; }
-#ifndef FRESHET_SCALAR
-  template <class P>
-  static KOKKOS_FORCEINLINE_FUNCTION void set_lane(P& value, int lane, double x) {
-    value.set(lane, x);
-  }
-#endif
 
   // Newton on psi = rho - sum m W(h(rho)) (2.8)-(2.10), its factor held within [1/2, 2]. Where h is at a bound it does not
   // follow rho: alpha = 1 and the root is the sum itself. "Bounded" is decided here, once, by the last evaluation.
@@ -165,14 +150,6 @@ struct SolveDensity {
       floored += at_bound && lane_of(h, l) < lane_of(h0, l);
     }
   }
-  static KOKKOS_FORCEINLINE_FUNCTION double lane_of(double value, int) { return value; }
-#ifndef FRESHET_SCALAR
-  template <class P>
-  static KOKKOS_FORCEINLINE_FUNCTION double lane_of(const P& value, int lane) {
-    return value[lane];
-  }
-#endif
-
   struct State {
     Lane rho, h, alpha, imposed;
   };
@@ -186,7 +163,9 @@ struct SolveDensity {
     me.store(p.pressure, 0.5 * options.gravity / state.alpha);
     me.store(p.celerity, root(options.gravity * state.rho));
     me.store(p.weight, m * per_volume * inv_h);
-    me.store(p.rate, -free * (s.slope.divergence() * per_volume * inv_h + s.wall.approach) / state.alpha);
+    const Lane rate = -free * (s.slope.divergence() * per_volume * inv_h + s.wall.approach) / state.alpha;
+    me.store(p.growth, rate + options.ahead * (rate - me.load(p.rate)));
+    me.store(p.rate, rate);
     if (options.gradient) me.store(p.strain, symmetric_gradient(s.slope, s.spread, free));
   }
 
@@ -200,19 +179,19 @@ struct SolveDensity {
 
 template <int D>
 DensityReport solve_density(const ClusterSet& clusters, const NeighbourView& near, const WallView<D>& walls,
-                            const Particles<D>& p, const Field<int>& kind, const DensityOptions& options) {
+                            const Particles<D>& p, const ImposedLanes& imposed, const DensityOptions& options) {
   DensityReport report;
   double evaluations = 0;
   Kokkos::parallel_reduce("swe::density", Range(0, clusters.size()),
-                          SolveDensity<D>{clusters, near, walls, p, kind, options}, evaluations,
+                          SolveDensity<D>{clusters, near, walls, p, imposed, options}, evaluations,
                           Kokkos::Max<int>(report.newton_max), report.outgrown, report.capped, report.floored);
   report.newton_mean = clusters.size() > 0 ? evaluations / clusters.size() : 0;
   return report;
 }
 
 template DensityReport solve_density<1>(const ClusterSet&, const NeighbourView&, const WallView<1>&, const Particles<1>&,
-                                        const Field<int>&, const DensityOptions&);
+                                        const ImposedLanes&, const DensityOptions&);
 template DensityReport solve_density<2>(const ClusterSet&, const NeighbourView&, const WallView<2>&, const Particles<2>&,
-                                        const Field<int>&, const DensityOptions&);
+                                        const ImposedLanes&, const DensityOptions&);
 
 }  // namespace freshet::swe

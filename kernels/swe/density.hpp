@@ -12,7 +12,7 @@ struct DensityOptions {
   double margin;        // growth of h that the neighbour list still covers
   LengthBounds bounds;  // of h
   bool gradient;        // the stabilisation reconstructs velocities
-  bool imposed;         // some particles (kind != 0) carry an imposed state
+  double ahead;         // extrapolation of d rho/dt to the middle of the next step: 1/2 at equal steps, 0 = none
 };
 
 struct DensityReport {
@@ -22,9 +22,10 @@ struct DensityReport {
   int capped = 0, floored = 0;
 };
 
-// Reads x, v_pred, m, kh, h0, rho (predicted), h (of the list); writes rho, h, inv_h, pressure, celerity, weight, rate, strain.
+// Reads x, v_pred, m, kh, h0, rho (predicted), h (of the list); writes rho, h, inv_h, pressure, celerity, weight, rate,
+// growth, strain.
 template <int D>
 DensityReport solve_density(const ClusterSet& clusters, const NeighbourView& near, const WallView<D>& walls,
-                            const Particles<D>& p, const Field<int>& kind, const DensityOptions& options);
+                            const Particles<D>& p, const ImposedLanes& imposed, const DensityOptions& options);
 
 }  // namespace freshet::swe

@@ -4,10 +4,14 @@ namespace freshet::swe {
 namespace {
 
 // exp(z) for the prediction of the density: second order, positive for |z| < 2.
-KOKKOS_FORCEINLINE_FUNCTION double growth(double z) {
-  const double half = 0.5 * clamp(z, -0.5, 0.5);
-  return (1 + half) / (1 - half);
+KOKKOS_FORCEINLINE_FUNCTION Lane growth(Lane z) {
+  const Lane half = 0.5 * clamp(z, Lane(-0.5), Lane(0.5));
+  return (1.0 + half) / (1.0 - half);
 }
+
+// Particles without regard to rows, `lanes` at a time.
+KOKKOS_FORCEINLINE_FUNCTION Lanes block(int b, int n) { return {b * lanes, smaller(lanes, n - b * lanes)}; }
+Range blocks(int n) { return Range(0, (n + lanes - 1) / lanes); }
 
 }  // namespace
 
@@ -15,61 +19,64 @@ template <int D>
 void kick_and_drift(const Particles<D>& p, const MotionOptions<D>& options, int n, double dt) {
   const Particles<D> f = p;
   const LengthBounds bounds = options.bounds;
-  const bool friction = options.friction.has_value(), imposed = options.imposed;
-  const Field<double> drag = options.drag;
-  const Field<int> kind = options.kind;
-  Kokkos::parallel_for("swe::kick_and_drift", Range(0, n), KOKKOS_LAMBDA(int i) {
-        const bool moved = imposed && kind(i) != 0;
-        const Vec<double, D> half_kick = (0.5 * dt) * at(f.a, i);
-        Vec<double, D> v = at(f.v, i) + half_kick;
-        if (friction && !moved) v = slowed<D>(v, drag(i), 0.5 * dt);
-        Vec<double, D> v_pred = v + half_kick;
-        if (friction && !moved) v_pred = slowed<D>(v_pred, drag(i), 0.5 * dt);
-        put(f.v, i, v);
-        put(f.v_pred, i, v_pred);
-        put(f.x, i, at(f.x, i) + dt * v);
-        const double rho = f.rho(i) * growth(dt * f.rate(i) / f.rho(i));
-        f.rho(i) = rho;
-        const double h = smoothing_length<D>(f.kh(i), rho);
-        f.h(i) = moved ? h : clamp(h, bounds.floor * f.h0(i), bounds.cap * f.h0(i));
+  const bool friction = options.friction.has_value();
+  const ImposedLanes imposed = options.imposed;
+  const Field<double> drag_field = options.drag;
+  Kokkos::parallel_for("swe::kick_and_drift", blocks(n), KOKKOS_LAMBDA(int b) {
+        const Lanes me = block(b, n);
+        const Lane moved = imposed(me), half_dt = 0.5 * dt;
+        const Vec<Lane, D> half_kick = half_dt * me.load(f.a);
+        Vec<Lane, D> v = me.load(f.v) + half_kick;
+        const Lane drag = friction ? (1.0 - moved) * me.load(drag_field) : Lane(0.0);
+        if (friction) v = slowed<D>(v, drag, half_dt);
+        Vec<Lane, D> v_pred = v + half_kick;
+        if (friction) v_pred = slowed<D>(v_pred, drag, half_dt);
+        me.store(f.v, v);
+        me.store(f.v_pred, v_pred);
+        me.store(f.x, me.load(f.x) + Lane(dt) * v);
+        const Lane before = me.load(f.rho), rho = before * growth(dt * me.load(f.growth) / before), h0 = me.load(f.h0);
+        me.store(f.rho, rho);
+        const Lane h = smoothing_length<D>(me.load(f.kh), rho);
+        me.store(f.h, select(Lane(0.5) < moved, h, clamp(h, bounds.floor * h0, bounds.cap * h0)));
       });
 }
 
 template <int D>
 double accelerate_and_kick(const Particles<D>& p, const MotionOptions<D>& options, int n, double kick_dt) {
   const Particles<D> f = p;
-  const bool with_bed = options.bed.has_value(), friction = options.friction.has_value(), imposed = options.imposed;
+  const bool with_bed = options.bed.has_value(), friction = options.friction.has_value();
   const std::optional<Bed<D>> bed = options.bed;
   const std::optional<Friction> roughness = options.friction;
   const bool variational = with_bed && bed->variational;
-  const double g = options.gravity;
-  const Field<double> drag = options.drag;
-  const Field<int> kind = options.kind;
+  const Lane g = options.gravity;
+  const Field<double> drag_field = options.drag;
+  const ImposedLanes imposed = options.imposed;
   double crossing = 0;
   Kokkos::parallel_reduce(
-      "swe::accelerate", Range(0, n),
-      KOKKOS_LAMBDA(int i, double& least) {
-        least = smaller(least, f.h(i) / (f.celerity(i) + f.signal(i)));
-        if (imposed && kind(i) != 0) {
-          put(f.a, i, Vec<double, D>());
-          if (with_bed) bed->level(i) = bed->spline.at(at(f.x, i)).b;
-          return;
-        }
-        Vec<double, D> a = -1.0 * at(f.t, i);
+      "swe::accelerate", blocks(n),
+      KOKKOS_LAMBDA(int block_index, double& least) {
+        const Lanes me = block(block_index, n);
+        least = smaller(least, smallest(me.load(f.h) / (me.load(f.celerity) + me.load(f.signal))));
+        Vec<Lane, D> a = Lane(-1.0) * me.load(f.t);
         if (with_bed) {
-          const BedPoint<D> b = bed->spline.at(at(f.x, i));
-          bed->level(i) = b.b;
+          const BedPoint<Lane, D> b = bed->spline.at(me.load(f.x));
+          me.store(bed->level, b.b);
           // a = -t - B (g + v.k v - t.B) / (1 + B.B); without the curvature terms -t - g B.
-          const double push = variational ? (g + quadratic(b.curvature, at(f.v_pred, i)) + dot(a, b.slope)) / (1 + dot(b.slope, b.slope)) : g;
+          Lane push = g;
+          if (variational)
+            push = (g + quadratic(b.curvature, me.load(f.v_pred)) + dot(a, b.slope)) / (1.0 + dot(b.slope, b.slope));
           a += -push * b.slope;
         }
-        put(f.a, i, a);
-        Vec<double, D> v = at(f.v, i) + kick_dt * a;
+        const Lane free = 1.0 - imposed(me);
+        a = free * a;
+        me.store(f.a, a);
+        Vec<Lane, D> v = me.load(f.v) + Lane(kick_dt) * a;
         if (friction) {
-          drag(i) = roughness->drag(f.rho(i));
-          v = slowed<D>(v, drag(i), kick_dt);
+          const Lane drag = roughness->drag(me.load(f.rho));
+          me.store(drag_field, drag);
+          v = slowed<D>(v, free * drag, Lane(kick_dt));
         }
-        put(f.v, i, v);
+        me.store(f.v, v);
       },
       Kokkos::Min<double>(crossing));
   return crossing;

@@ -12,16 +12,17 @@ struct Friction {
   double gravity, manning;  // m/s2, s/m^(1/3)
 
   // K = g n^2 / d^(4/3) [1/m]: deceleration K |v| v (corrected (2.47)).
-  KOKKOS_FORCEINLINE_FUNCTION double drag(double depth) const {
-    const double root = ::cbrt(depth);
-    return gravity * manning * manning / (depth * root);
+  template <class V>
+  KOKKOS_FORCEINLINE_FUNCTION V drag(V depth) const {
+    const V per_root = inverse_cbrt(depth);
+    return (gravity * manning * manning) * (per_root * per_root) * (per_root * per_root);
   }
 };
 
 // v after dt of drag K |v| v, backward Euler: keeps the steady state exactly and cannot turn v round.
-template <int D>
-KOKKOS_FORCEINLINE_FUNCTION Vec<double, D> slowed(const Vec<double, D>& v, double drag, double dt) {
-  return (2 / (1 + root(1 + 4 * drag * dt * root(dot(v, v))))) * v;
+template <int D, class V>
+KOKKOS_FORCEINLINE_FUNCTION Vec<V, D> slowed(const Vec<V, D>& v, V drag, V dt) {
+  return (2.0 / (1.0 + root(1.0 + 4.0 * drag * dt * root(dot(v, v))))) * v;
 }
 
 // The bed's part in a step: where it is absent no pass, no field.
@@ -39,8 +40,7 @@ struct MotionOptions {
   std::optional<Bed<D>> bed;
   std::optional<Friction> friction;
   Field<double> drag;   // 1/m, with friction
-  Field<int> kind;      // where `imposed`: particles with kind != 0 move at their imposed velocity
-  bool imposed;
+  ImposedLanes imposed; // these move at their imposed velocity
 };
 
 // v(t) -> v(t + dt/2), x -> x(t + dt); predicts v, rho, h at t + dt.

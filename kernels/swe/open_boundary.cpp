@@ -127,6 +127,7 @@ void OpenBoundary<D>::convert(FieldSet& particles, const Particles<D>& p, const 
   const auto crossed = ordered_sum<2>("open::convert", particles.size(), KOKKOS_LAMBDA(int i) {
         Kokkos::Array<double, 2> in_out{};
         const Vec<double, D> x = at(f.x, i);
+        if (kind(i) == OpenBoundary::fluid && dot(x - frame.line.origin, frame.line.inward) >= 0) return in_out;
         const Station s = frame(x);
         if (!s.beside || s.inside < -2 * trim) return in_out;
         if (kind(i) == OpenBoundary::boundary && s.inside >= 0) {

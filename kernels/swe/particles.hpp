@@ -17,6 +17,7 @@ struct Particles {
   Field<double> kh;             // rho0 h0^D: the constant of rho h^D = kh (2.5)
   Field<double> rho;            // m, density = depth
   Field<double> rate;           // m/s, d rho/dt (2.34)
+  Field<double> growth;         // m/s, d rho/dt expected in the middle of the next step
   Field<double> h, inv_h;       // m, 1/m
   Field<double> pressure;       // m/s2: g / (2 alpha), p / (rho^2 alpha) of (2.22)
   Field<double> celerity;       // m/s: sqrt(g d)
@@ -39,6 +40,18 @@ KOKKOS_FORCEINLINE_FUNCTION V smoothing_length(V kh, V rho) {
 // Bounds of h: light shoreline particles keep h >= floor h0, isolated ones h <= cap h0.
 struct LengthBounds {
   double floor, cap;  // x h0
+};
+
+// 1 in the lanes of particles whose state is imposed (kind != 0), else 0. Without a kind field nothing is imposed.
+struct ImposedLanes {
+  Field<int> kind;
+
+  KOKKOS_INLINE_FUNCTION Lane operator()(const Lanes& me) const {
+    Lane value(0.0);
+    if (kind.extent(0) > 0)
+      for (int l = 0; l < lanes; ++l) set_lane(value, l, kind(me.particle(l)) != 0 ? 1.0 : 0.0);
+    return value;
+  }
 };
 
 template <int D>

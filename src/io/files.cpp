@@ -17,7 +17,7 @@ namespace {
 
 [[noreturn]] void fail(const std::string& path, const std::string& action, int error) {
   std::string text = path + ": " + action + ": " + std::strerror(error);
-  if (error == ENOSPC || error == EDQUOT) text += "\n  help: free some space, or choose another directory with --out";
+  if (error == ENOSPC || error == EDQUOT || error == EFBIG) text += "\n  help: free some space, or choose another directory with --out";
   if (error == EACCES || error == EROFS) text += "\n  help: choose a directory that you may write to with --out";
   throw IoError(text);
 }
@@ -51,6 +51,16 @@ void require_space(const std::string& directory, std::uint64_t bytes) {
   if (error || space.available >= bytes) return;
   fail(directory, "the next output needs " + std::to_string(bytes >> 10) + " KiB, free are " +
                       std::to_string(space.available >> 10) + " KiB", ENOSPC);
+}
+
+void reserve_space(const std::string& path, std::uint64_t bytes) {
+  const int descriptor = ::open(path.c_str(), O_RDWR);
+  if (descriptor < 0) fail(path, "cannot be opened for writing", errno);
+  const off_t size = ::lseek(descriptor, 0, SEEK_END);
+  const int error = ::posix_fallocate(descriptor, size, static_cast<off_t>(bytes));
+  const bool restored = error == 0 || ::ftruncate(descriptor, size) == 0;
+  ::close(descriptor);
+  if (error != 0 || !restored) fail(path, "cannot grow by " + std::to_string(bytes >> 10) + " KiB", error);
 }
 
 void sync_file(const std::string& path) { sync(path, O_RDONLY); }

@@ -7,9 +7,11 @@ namespace freshet {
 
 // Makes the directory and its parents where they are missing.
 void make_directory(const std::string& directory);
-// Throws unless the file system of this directory has room for so many bytes: a file that is cut short in the middle
-// of an output could lose the earlier ones, so it is better not to begin.
+// Throws unless the file system of this directory has room for so many bytes.
 void require_space(const std::string& directory, std::uint64_t bytes);
+// Appends so many bytes of room to an existing file, or throws and leaves it as it was. A file whose format cannot be cut
+// short is brought to its new size before it is changed, so that a full disk or a quota cannot harm what it holds.
+void reserve_space(const std::string& path, std::uint64_t bytes);
 // Waits until the file's data are on the disk.
 void sync_file(const std::string& path);
 // Puts the finished file `temporary` in the place of `path`, so that a reader or a crash sees the old or the new one.

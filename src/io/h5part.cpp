@@ -53,7 +53,7 @@ void ParticleFile::create(const std::string& scene_text, const std::string& vers
 
 void ParticleFile::append(int step, double t, const FieldSet& fields) const {
   const Fluid fluid = fluid_on_host(fields);
-  require_space(folder_of(path_), metadata_bytes + fluid.size() * (2 * 8 + 5 * 4));
+  reserve_space(path_, metadata_bytes + fluid.size() * (2 * 8 + 5 * 4));
   auto file = hdf5::File::change(path_);
   {
     const auto group = file.create(group_name(step));

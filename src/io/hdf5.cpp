@@ -119,32 +119,47 @@ void Group::remove(const std::string& name) const {
 
 namespace {
 
-// Returns false instead of throwing: the caller knows the place.
-bool write_set(std::int64_t group, const std::string& name, const void* values, std::size_t count, hid_t from,
+// The reason must be asked for before any handle closes: that clears HDF5's error stack.
+struct Place {
+  std::int64_t in;          // group or object
+  const std::string& name;  // of the data set or attribute in it
+  const std::string& where;
+
+  void expect(std::int64_t result, const std::string& action) const {
+    if (result < 0) fail_at(where, action + " " + name);
+  }
+};
+
+void write_set(const Place& at, const void* values, std::size_t count, hid_t from,
                hid_t stored) {
   const hsize_t extent = count;
   Handle space(H5Screate_simple(1, &extent, nullptr), close_space);
-  Handle set(H5Dcreate2(group, name.c_str(), stored, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), close_set);
-  if (space.id() < 0 || set.id() < 0) return false;
-  return H5Dwrite(set.id(), from, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0 && set.close() >= 0;
+  at.expect(space.id(), "cannot size");
+  Handle set(H5Dcreate2(at.in, at.name.c_str(), stored, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+             close_set);
+  at.expect(set.id(), "cannot create");
+  at.expect(H5Dwrite(set.id(), from, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "cannot write");
+  at.expect(set.close(), "cannot close");
 }
 
 template <class T>
-bool read_set(std::int64_t group, const std::string& name, hid_t into, std::vector<T>& values) {
-  Handle set(H5Dopen2(group, name.c_str(), H5P_DEFAULT), close_set);
-  if (set.id() < 0) return false;
+std::vector<T> read_set(const Place& at, hid_t into) {
+  Handle set(H5Dopen2(at.in, at.name.c_str(), H5P_DEFAULT), close_set);
+  at.expect(set.id(), "has no");
   Handle space(H5Dget_space(set.id()), close_space);
   const auto count = H5Sget_simple_extent_npoints(space.id());
-  if (count < 0) return false;
-  values.resize(static_cast<std::size_t>(count));
-  return H5Dread(set.id(), into, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0;
+  at.expect(count, "cannot size");
+  std::vector<T> values(static_cast<std::size_t>(count));
+  at.expect(H5Dread(set.id(), into, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), "cannot read");
+  return values;
 }
 
-bool write_attribute(std::int64_t object, const std::string& name, hid_t type, const void* value) {
-  if (H5Aexists(object, name.c_str()) > 0) H5Adelete(object, name.c_str());
+void write_attribute(const Place& at, hid_t type, const void* value) {
+  if (H5Aexists(at.in, at.name.c_str()) > 0) H5Adelete(at.in, at.name.c_str());
   Handle space(H5Screate(H5S_SCALAR), close_space);
-  Handle attribute(H5Acreate2(object, name.c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT), close_attribute);
-  return attribute.id() >= 0 && H5Awrite(attribute.id(), type, value) >= 0;
+  Handle attribute(H5Acreate2(at.in, at.name.c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT), close_attribute);
+  at.expect(attribute.id(), "cannot create");
+  at.expect(H5Awrite(attribute.id(), type, value), "cannot write");
 }
 
 Handle open_object(std::int64_t group, const std::string& name) {
@@ -155,11 +170,11 @@ Handle open_object(std::int64_t group, const std::string& name) {
 
 void Group::write(const std::string& name, const double* values, std::size_t count, Stored stored) const {
   const auto type = stored == Stored::float32 ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
-  if (!write_set(handle_.id(), name, values, count, H5T_NATIVE_DOUBLE, type)) fail("cannot write " + name);
+  write_set({handle_.id(), name, where_}, values, count, H5T_NATIVE_DOUBLE, type);
 }
 
 void Group::write(const std::string& name, const int* values, std::size_t count) const {
-  if (!write_set(handle_.id(), name, values, count, H5T_NATIVE_INT, H5T_STD_I32LE)) fail("cannot write " + name);
+  write_set({handle_.id(), name, where_}, values, count, H5T_NATIVE_INT, H5T_STD_I32LE);
 }
 
 void Group::write(const std::string& name, const std::vector<double>& values, Stored stored) const {
@@ -181,15 +196,11 @@ void Group::write(const std::string& name, const std::string& text) const {
 }
 
 std::vector<double> Group::reals(const std::string& name) const {
-  std::vector<double> values;
-  if (!read_set(handle_.id(), name, H5T_NATIVE_DOUBLE, values)) fail("cannot read " + name);
-  return values;
+  return read_set<double>({handle_.id(), name, where_}, H5T_NATIVE_DOUBLE);
 }
 
 std::vector<int> Group::integers(const std::string& name) const {
-  std::vector<int> values;
-  if (!read_set(handle_.id(), name, H5T_NATIVE_INT, values)) fail("cannot read " + name);
-  return values;
+  return read_set<int>({handle_.id(), name, where_}, H5T_NATIVE_INT);
 }
 
 std::string Group::text(const std::string& name) const {
@@ -203,12 +214,12 @@ std::string Group::text(const std::string& name) const {
 
 void Group::attribute(const std::string& name, double value, const std::string& object) const {
   const Handle target = open_object(handle_.id(), object);
-  if (!write_attribute(target.id(), name, H5T_NATIVE_DOUBLE, &value)) fail("cannot write attribute " + name);
+  write_attribute({target.id(), name, where_}, H5T_NATIVE_DOUBLE, &value);
 }
 
 void Group::attribute(const std::string& name, const std::string& value, const std::string& object) const {
   const Handle target = open_object(handle_.id(), object), type = text_type(value.size());
-  if (!write_attribute(target.id(), name, type.id(), value.c_str())) fail("cannot write attribute " + name);
+  write_attribute({target.id(), name, where_}, type.id(), value.c_str());
 }
 
 double Group::real_attribute(const std::string& name, const std::string& object) const {

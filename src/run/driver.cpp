@@ -49,6 +49,7 @@ bool Driver::run() {
       if (options_.stop && *options_.stop) break;
       step();
       monitor_.check(method_, clock_);
+      if (clock_.step % 100 == 0) monitor_.check_all(method_, clock_);
       gauges_.record(method_, clock_.t);
       run_ups_.record(method_);
       fire_events();

@@ -19,7 +19,7 @@ class Monitor {
 
   // One reduction over all particles; the particle is searched only if something is wrong.
   void check(const Method& method, const Clock& clock) const;
-  // Every saved or sorted field of every particle, and the mass balance: for output times.
+  // Every saved or sorted field of every particle, and the mass balance: at outputs and every hundredth step.
   void check_all(const Method& method, const Clock& clock) const;
   void check_dt(double dt, const Clock& clock) const;
 

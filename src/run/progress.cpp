@@ -1,5 +1,7 @@
 #include "src/run/progress.hpp"
 
+#include <sys/ioctl.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -15,6 +17,11 @@ std::string duration(double seconds) {
   if (s < 3600) std::snprintf(text, sizeof text, "%ld:%02ld", s / 60, s % 60);
   else std::snprintf(text, sizeof text, "%ld:%02ld:%02ld", s / 3600, s / 60 % 60, s % 60);
   return text;
+}
+
+int columns(std::FILE* terminal) {
+  winsize size{};
+  return ioctl(fileno(terminal), TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col : 80;
 }
 
 double percent(double t, double end) { return end > 0 ? 100 * t / end : 100; }
@@ -39,10 +46,14 @@ void Progress::show(const ProgressState& state) {
   while (next_percent_ <= percent(state.clock.t, end_)) next_percent_ += 10;
   const double done = state.clock.t - start_;
   const double left = done > 0 ? last_ * (end_ - state.clock.t) / done : 0;
-  std::fprintf(out_, "%s%5.1f %%  t %.6g s  dt %.3g s  step %ld  %d particles  %.2f M particle-steps/s  mass error %.1e"
-               "  %s left%s", terminal_ ? "\r" : "", percent(state.clock.t, end_), state.clock.t, state.dt,
-               state.clock.step, state.particles, particle_steps_ / std::max(last_, 1e-9) / 1e6, state.mass_error,
-               duration(left).c_str(), terminal_ ? "\033[K" : "\n");
+  char line[256];
+  std::snprintf(line, sizeof line,
+                "%5.1f %%  t %.6g s  dt %.3g s  step %ld  %d particles  %.2f M particle-steps/s  mass error %.1e  %s left",
+                percent(state.clock.t, end_), state.clock.t, state.dt, state.clock.step, state.particles,
+                particle_steps_ / std::max(last_, 1e-9) / 1e6, state.mass_error, duration(left).c_str());
+  // A line that wraps could not be rewritten in place.
+  if (terminal_) std::fprintf(out_, "\r%.*s\033[K", columns(out_) - 1, line);
+  else std::fprintf(out_, "%s\n", line);
   std::fflush(out_);
   shown_ = true;
 }

@@ -17,6 +17,7 @@ struct FileOptions {
   std::optional<Registration> registration;
   std::optional<double> fill;  // stands for missing values; absent = they are an error
   double factor = 1, offset = 0;
+  double reach = 0;  // m, how far outside the domain values count: the smoothing of the bed looks there
 };
 
 struct FileBed {
@@ -62,7 +63,7 @@ FileBed from_raster(Raster raster, const FileOptions& options, const Domain& dom
   bed.high = {raster.x0 + (raster.nx - 1) * raster.dx, raster.y0 + (raster.ny - 1) * raster.dy};
   bed.reach = std::max(raster.dx, raster.dy);
   bed.spacing = std::min(raster.dx, raster.dy);
-  const auto part = std::make_shared<Raster>(cropped(raster, domain));
+  const auto part = std::make_shared<Raster>(cropped(raster, domain, options.reach));
   for (double& z : part->z) z = options.factor * z + options.offset;
   const Gaps gaps = find_gaps(*part);
   bed.nodata = gaps.count;
@@ -137,7 +138,8 @@ void require_cover(Table& section, const FileBed& file, const std::string& name,
 
 double read_file_bed(Table& section, Scene& scene) {
   Value<std::string> path = section.file("file");
-  const FileOptions options = read_file_options(section);
+  FileOptions options = read_file_options(section);
+  options.reach = 6 * scene.sph.eta * scene.water.spacing;
   if (!path.optional()) return 0;
   const std::string name = file_name(*path.optional());
   try {

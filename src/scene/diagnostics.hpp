@@ -1,5 +1,4 @@
-// Errors of meaning, collected so that one run of the reader shows them all, each with its line, a caret and
-// help.
+// Errors of meaning, collected so that one run of the reader shows them all: each with line, caret and help.
 #pragma once
 #include <string>
 #include <vector>

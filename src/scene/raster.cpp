@@ -175,15 +175,17 @@ double Raster::level(double x, double y) const {
          b * ((1 - a) * at(i, j + 1) + a * at(i + 1, j + 1));
 }
 
-Raster cropped(const Raster& raster, const Domain& domain) {
-  const auto range = [](double low, double high, double origin_at, double step, int count) {
-    const int first = static_cast<int>(std::floor(std::clamp((low - origin_at) / step, 0.0, count - 2.0)));
-    const int last = static_cast<int>(std::ceil(std::clamp((high - origin_at) / step, 1.0, count - 1.0)));
-    return std::array<int, 2>{std::max(first - Raster::margin, 0),
-                              std::min(last + Raster::margin, count - 1)};
+Raster cropped(const Raster& raster, const Domain& domain, double reach) {
+  const auto range = [&](int axis, double origin_at, double step, int count) {
+    const double low = (domain.low[axis] - origin_at) / step, high = (domain.high[axis] - origin_at) / step;
+    const double margin = std::max(static_cast<double>(Raster::margin), reach / step);
+    const double first = std::floor(std::clamp(low, 0.0, count - 2.0) - margin);
+    const double last = std::ceil(std::clamp(high, 1.0, count - 1.0) + margin);
+    return std::array<int, 2>{static_cast<int>(std::max(first, 0.0)),
+                              static_cast<int>(std::min(last, count - 1.0))};
   };
-  const auto columns = range(domain.low[0], domain.high[0], raster.x0, raster.dx, raster.nx);
-  const auto rows = range(domain.low[1], domain.high[1], raster.y0, raster.dy, raster.ny);
+  const auto columns = range(0, raster.x0, raster.dx, raster.nx);
+  const auto rows = range(1, raster.y0, raster.dy, raster.ny);
   Raster part = raster;
   part.x0 = raster.x0 + columns[0] * raster.dx;
   part.y0 = raster.y0 + rows[0] * raster.dy;

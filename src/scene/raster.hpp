@@ -38,8 +38,9 @@ AsciiGrid read_ascii_grid(const std::string& path, const std::string& text,
                           std::optional<Registration> registration);
 bool looks_like_ascii_grid(const std::string& text);
 
-// The part of the raster within `Raster::margin` cells of the box; at least 2 x 2 nodes.
-Raster cropped(const Raster& raster, const Domain& domain);
+// The part of the raster within `reach` [m], and at least `Raster::margin` cells, of the box; at least 2 x 2
+// nodes.
+Raster cropped(const Raster& raster, const Domain& domain, double reach);
 
 // Nodes without a value, and the first of them (highest row first, as in the file).
 struct Gaps {

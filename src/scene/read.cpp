@@ -77,6 +77,9 @@ Scene read_scene_text(const std::string& text, const std::string& file,
   }
   diagnostics.throw_if_any();
   scene.notes = std::move(context.notes);
+  // A name taken from the file would change with the place that the text is read from.
+  if (!tree.get_as<toml::table>("scene")) tree.insert_or_assign("scene", toml::table{});
+  tree.get_as<toml::table>("scene")->insert("name", scene.name);
   scene.text = serialise(tree);
   return scene;
 }

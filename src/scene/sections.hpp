@@ -1,5 +1,4 @@
-// The sections of a scene file, one function each; read.cpp calls them in the order in which they need each
-// other.
+// The sections of a scene file, one function each; read.cpp calls them in the order of their needs.
 #pragma once
 #include <optional>
 #include <string>
@@ -18,15 +17,14 @@ bool read_sph(Table& section, Scene& scene);
 // [bed]. Needs the domain, water.spacing and sph.eta.
 void read_bed(Table& section, Scene& scene);
 
-// [compare]. Needs the bed and water.spacing. `exact_at` is where the exact solution stands in the file.
+// [compare]. Needs the bed and water.spacing.
 struct ComparePlan {
   double window = 0;        // s
   bool around_end = false;  // the window lies around time.end: the run goes on for half of it
 };
 ComparePlan read_compare(Table& section, Scene& scene);
 
-// [water] start and wet_above are read first (the comparison window needs them), surface, depth, velocity
-// later.
+// [water]: spacing, start and wet_above come first (bed and comparison need them), the state later.
 void read_spacing(Table& section, Scene& scene);
 void read_water_state(Table& section, Scene& scene);
 

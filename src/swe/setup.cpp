@@ -128,7 +128,8 @@ void Solver<D>::make_fields() {
   vector("tx", "ty", "m/s2", Carry::no);
   for (const char* name : {"mass", "kh"}) f.real(name, volume, Carry::state);
   for (const char* name : {"h0", "depth", "h"}) f.real(name, "m", Carry::state);
-  f.real("depth_rate", "m/s", Carry::result);
+  f.real("depth_rate", "m/s", Carry::state);
+  f.real("depth_growth", "m/s", Carry::result);
   f.real("inv_h", "1/m", Carry::no);
   f.real("pressure", "m/s2", Carry::no);
   for (const char* name : {"celerity", "signal"}) f.real(name, "m/s", Carry::no);
@@ -158,6 +159,7 @@ Particles<D> Solver<D>::bind() const {
   p.rho = f.real("depth");
   p.h = f.real("h");
   p.rate = f.real("depth_rate");
+  p.growth = f.real("depth_growth");
   p.inv_h = f.real("inv_h");
   p.pressure = f.real("pressure");
   p.celerity = f.real("celerity");

@@ -29,7 +29,7 @@ Solver<D>::Solver(const Scene& scene)
   place_particles();
   for (auto& boundary : boundaries_) boundary.fill(particles_, [this] { return bind(); }, bed(), next_id_);
   find_neighbours();
-  evaluate(0);
+  evaluate(0, 0);
   for (auto& boundary : boundaries_) {
     boundary.observe(order_.rows(), bind(), kind(), bed());
     boundary.start(bind(), kind(), particles_.size());
@@ -39,17 +39,17 @@ Solver<D>::Solver(const Scene& scene)
 template <int D>
 void Solver<D>::step(double t, double dt) {
   kick_and_drift<D>(bind(), motion(), particles_.size(), dt);
-  if (walls_) walls_->reflect(bind().x, bind().v, bind().v_pred, particles_.size());
+  if (walls_) walls_->reflect(clusters_, bind().x, bind().v, bind().v_pred);
   for (auto& boundary : boundaries_) boundary.exchange(particles_, [this] { return bind(); }, bed(), t + dt, dt, next_id_);
   find_neighbours();
-  evaluate(0.5 * dt);
+  evaluate(0.5 * dt, 0.5);
   for (auto& boundary : boundaries_) boundary.observe(order_.rows(), bind(), kind(), bed());
 }
 
 // Density, force and acceleration at the particles' positions, then the second half kick.
 template <int D>
-void Solver<D>::evaluate(double kick_dt) {
-  close_density();
+void Solver<D>::evaluate(double kick_dt, double ahead) {
+  close_density(ahead);
   internal_force<D>(clusters_, neighbours_.view(), wall_view(), bind(), stabilise_);
   crossing_time_ = accelerate_and_kick<D>(bind(), motion(), particles_.size(), kick_dt);
 }
@@ -66,12 +66,12 @@ void Solver<D>::find_neighbours() {
 
 // Density; where an h outgrew the list's margin, the list is made again with the h found.
 template <int D>
-void Solver<D>::close_density() {
+void Solver<D>::close_density(double ahead) {
   constexpr int most_lists = 20;  // each may grow h by the margin at most before it is made again
   const DensityOptions options{scene_.gravity, scene_.sph.newton_tolerance, list_margin,
-                               {scene_.sph.h_floor, scene_.sph.h_cap}, gradient_, !boundaries_.empty()};
+                               {scene_.sph.h_floor, scene_.sph.h_cap}, gradient_, ahead};
   for (int lists = 0; lists < most_lists; ++lists) {
-    const DensityReport r = solve_density<D>(clusters_, neighbours_.view(), wall_view(), bind(), kind(), options);
+    const DensityReport r = solve_density<D>(clusters_, neighbours_.view(), wall_view(), bind(), {kind()}, options);
     report_.newton_mean = r.newton_mean;
     report_.newton_max = r.newton_max;
     report_.capped = r.capped;
@@ -93,7 +93,7 @@ double Solver<D>::stable_dt() const {
 template <int D>
 MotionOptions<D> Solver<D>::motion() const {
   return {scene_.gravity, {scene_.sph.h_floor, scene_.sph.h_cap}, bed(), friction_,
-          friction_ ? particles_.real("drag") : Field<double>(), kind(), !boundaries_.empty()};
+          friction_ ? particles_.real("drag") : Field<double>(), {kind()}};
 }
 
 template class Solver<1>;

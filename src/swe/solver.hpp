@@ -43,8 +43,8 @@ class Solver : public Method {
   Field<int> kind() const;
   std::optional<Bed<D>> bed() const;
   void find_neighbours();
-  void close_density();
-  void evaluate(double kick_dt);
+  void close_density(double ahead);
+  void evaluate(double kick_dt, double ahead);
   WallView<D> wall_view() const { return walls_ ? walls_->view() : WallView<D>{}; }
 
   Scene scene_;

@@ -37,14 +37,14 @@ class FakeMethod : public Method {
   int dimension() const override { return scene_.domain.dimension; }
   double stable_dt() const override {
     if (trouble.kind == Trouble::Kind::no_dt && steps_ >= trouble.step) return 0;
-    return 0.1 * scene_.water.spacing * (1 + 0.3 * std::sin(phase_));
+    return 0.3 * scene_.water.spacing * (1 + 0.3 * std::sin(phase_));
   }
 
   void step(double, double dt) override {
     ++steps_;
     phase_ += 1.7 * dt / scene_.water.spacing;
     for (int i = 0; i < fields_.size(); ++i) advance(i, dt);
-    shuffle();
+    if (steps_ % 4 == 0) shuffle();
     if (trouble.step == steps_) spoil();
     if (on_step) on_step(steps_);
   }

@@ -8,9 +8,11 @@
 #include "src/errors.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/files.hpp"
+#include "tests/support/full_disk.hpp"
 #include "tests/support/scratch.hpp"
 
 using namespace freshet;
+using test::FileSizeLimit;
 namespace fs = std::filesystem;
 
 namespace {
@@ -83,6 +85,24 @@ TEST_CASE("a checkpoint that cannot be written leaves the last one as it was") {
   fs::create_directory(path + ".new");  // stands in the way even of root
   CHECK_THROWS_AS(write_checkpoint(path, {"", "other", {}, {}}, awkward_fields()), IoError);
   CHECK(read_text(path) == before);
+}
+
+TEST_CASE("a disk that fills up in the middle of a checkpoint is told and costs nothing") {
+  const test::Scratch scratch;
+  const std::string path = scratch / "state.h5";
+  write_checkpoint(path, some_checkpoint(), awkward_fields());
+  const std::string before = read_text(path);
+  FieldSet large(20000);
+  large.real("x", "m", Carry::state);
+  for (const std::size_t limit : {1000u, 20000u, 100000u}) {  // in the header, in the tables, in the data
+    CAPTURE(limit);
+    const FileSizeLimit full(limit);
+    CHECK_THROWS_AS(write_checkpoint(path, some_checkpoint(), large), IoError);
+  }
+  CHECK(read_text(path) == before);
+  CHECK_FALSE(fs::exists(path + ".new"));
+  CHECK_NOTHROW(write_checkpoint(path, some_checkpoint(), large));  // once there is room again
+  CHECK(read_checkpoint(path).run.at("clock") == std::vector<double>{0.1, 7});
 }
 
 TEST_CASE("a damaged checkpoint is an input error that names the file") {

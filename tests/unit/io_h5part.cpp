@@ -2,10 +2,12 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <filesystem>
 
 #include "src/errors.hpp"
 #include "src/io/h5part.hpp"
 #include "src/io/hdf5.hpp"
+#include "tests/support/full_disk.hpp"
 #include "tests/support/scratch.hpp"
 
 using namespace freshet;
@@ -99,6 +101,27 @@ TEST_CASE("particle files are cut and continued") {
   CHECK(steps[2].t == 0.1 * 2);
   CHECK(steps[3].step == 3);
   CHECK(steps[3].t == 9.0);
+}
+
+TEST_CASE("a disk that fills up in the middle of an output is an error and spares the earlier outputs") {
+  const test::Scratch scratch;
+  const std::string path = scratch / "particles.h5part";
+  FieldSet fields(20000);
+  for (const char* name : {"x", "u", "depth"}) fields.real(name, "m", Carry::state);
+  fields.integer("id", "1", Carry::state);
+  const ParticleFile file(path);
+  file.create("", "0.1");
+  file.append(0, 0, fields);
+  for (const std::size_t room : {0u, 3000u, 100000u, 600000u}) {  // an output takes 720 kB
+    CAPTURE(room);
+    const test::FileSizeLimit full(std::filesystem::file_size(path) + room);
+    CHECK_THROWS_AS(file.append(1, 1, fields), IoError);
+    CHECK_THROWS_WITH(file.append(1, 1, fields), Catch::Contains(path) && Catch::Contains("cannot grow"));
+    REQUIRE(list_particle_steps(path).size() == 1);
+    CHECK(read_particle_step(path, 0).x.size() == 20000);
+  }
+  CHECK_NOTHROW(file.append(1, 1, fields));  // once there is room again
+  CHECK(list_particle_steps(path).size() == 2);
 }
 
 TEST_CASE("empty particle sets can be written and read") {

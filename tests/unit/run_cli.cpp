@@ -174,12 +174,12 @@ TEST_CASE("SIGINT and SIGTERM finish the step, write the state and exit with 130
   const std::string results = scratch / "results";
   const auto interrupt = [signal](auto& method) {
     method.on_step = [signal](long step) {
-      if (step == 40) std::raise(signal);
+      if (step == 20) std::raise(signal);
     };
   };
   const Result run = freshet_with(fake_parts(interrupt), {"run", scene_in(scratch), "--out", results});
   CHECK(run.code == 130);
-  CHECK_THAT(run.out, Contains("step 40") && Contains("freshet resume " + results));
+  CHECK_THAT(run.out, Contains("step 20") && Contains("freshet resume " + results));
   CHECK_FALSE(fs::exists(results + "/summary.json"));
   const Result resumed = freshet_with({"resume", results});
   CHECK(resumed.code == 0);
@@ -190,7 +190,7 @@ TEST_CASE("an echo of the signal does not kill the run before its state is writt
   const test::Scratch scratch;
   const auto interrupt = [](auto& method) {
     method.on_step = [](long step) {
-      if (step == 40) std::raise(SIGTERM), std::raise(SIGTERM);  // as timeout(1) does
+      if (step == 20) std::raise(SIGTERM), std::raise(SIGTERM);  // as timeout(1) does
     };
   };
   CHECK(freshet_with(fake_parts(interrupt), {"run", scene_in(scratch), "--out", scratch / "r"}).code == 130);
@@ -217,8 +217,8 @@ TEST_CASE("check, list, version and help") {
   const test::Scratch scratch;
   const Result check = freshet_with({"check", scene_in(scratch)});
   CHECK(check.code == 0);
-  // 200 steps of 0.1 dx = 0.005 s to 1 s.
-  CHECK_THAT(check.out, Contains("scene       fake") && Contains("particles   400") && Contains("about 200 of 0.005 s") &&
+  // 0.3 dx = 0.015 s: 66.7 steps to 1 s.
+  CHECK_THAT(check.out, Contains("scene       fake") && Contains("particles   400") && Contains("about 67 of 0.015 s") &&
                             Contains("flight"));
   CHECK(freshet_with({"list"}).code == 0);
   CHECK_THAT(freshet_with({"--version"}).out, Contains("backend") && Contains("compiler") && Contains("threads"));

@@ -55,7 +55,7 @@ TEST_CASE("the monitor names what, which particle, when and the limit") {
 TEST_CASE("of several troubled particles the lowest id is named, wherever it lies in memory") {
   const Scene scene = test::fake_scene(1);
   test::FakeMethod method(scene);
-  for (int k = 0; k < 7; ++k) method.step(0, 1e-3);  // each step shifts the particles by one place
+  for (int k = 0; k < 7; ++k) method.step(0, 1e-3);  // they change places in the fourth
   Kokkos::deep_copy(method.fields().real("depth"), -1.0);
   CHECK_THROWS_WITH(Monitor(scene).check(method, {}), Contains("particle 0 at"));
 }
