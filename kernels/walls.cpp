@@ -11,10 +11,11 @@ using Line = std::vector<std::array<double, 2>>;
 struct WallPoint {
   double x[2];
   double p[3];  // projector xx, xy, yy
+  int segment;
 };
 
 WallSegment segment_between(const std::array<double, 2>& a, const std::array<double, 2>& b) {
-  WallSegment s{{a[0], a[1]}, {b[0], b[1]}, {}, {}, std::hypot(b[0] - a[0], b[1] - a[1]), 0, 0};
+  WallSegment s{{a[0], a[1]}, {b[0], b[1]}, {}, {}, std::hypot(b[0] - a[0], b[1] - a[1]), 0, 0, -1};
   for (int k = 0; k < 2; ++k) s.tangent[k] = (s.b[k] - s.a[k]) / s.length;
   s.normal[0] = -s.tangent[1];
   s.normal[1] = s.tangent[0];
@@ -23,47 +24,51 @@ WallSegment segment_between(const std::array<double, 2>& a, const std::array<dou
 
 // Projector of a point between two segments: the eigenvalues of n1 n1^T + n2 n2^T cut at one, so that it turns from
 // n n^T (straight wall) to the identity (right corner: the image through it moves exactly opposite).
-WallPoint corner_point(const double* x, const WallSegment& s, const WallSegment& t) {
+WallPoint corner_point(const double* x, const WallSegment& s, const WallSegment& t, int segment) {
   const double bx = s.normal[0] + t.normal[0], by = s.normal[1] + t.normal[1], length = std::hypot(bx, by);
-  if (length < 1e-9) return {{x[0], x[1]}, {1, 0, 1}};
+  if (length < 1e-9) return {{x[0], x[1]}, {1, 0, 1}, segment};
   const double nx = bx / length, ny = by / length;
   const double cosine = s.normal[0] * t.normal[0] + s.normal[1] * t.normal[1];
   const double across = std::fmin(1.0, 1 + cosine), along = std::fmin(1.0, 1 - cosine);
   return {{x[0], x[1]},
-          {across * nx * nx + along * ny * ny, (across - along) * nx * ny, across * ny * ny + along * nx * nx}};
+          {across * nx * nx + along * ny * ny, (across - along) * nx * ny, across * ny * ny + along * nx * nx},
+          segment};
 }
 
-WallPoint face_point(const WallSegment& s, double along) {
+WallPoint face_point(const WallSegment& s, double along, int segment) {
   const double *n = s.normal, *e = s.tangent;
-  return {{s.a[0] + along * e[0], s.a[1] + along * e[1]}, {n[0] * n[0], n[0] * n[1], n[1] * n[1]}};
+  return {{s.a[0] + along * e[0], s.a[1] + along * e[1]}, {n[0] * n[0], n[0] * n[1], n[1] * n[1]}, segment};
 }
 
 bool same(const double* a, const double* b, double tolerance) { return std::hypot(a[0] - b[0], a[1] - b[1]) < tolerance; }
 
 // A corner of less than 180 degrees: each wall goes on by half a spacing (the two extra points), and behind it both walls
 // catch what slips through.
-void extend_corner(WallSegment& s, WallSegment& t, double step, std::vector<WallPoint>& points) {
+void extend_corner(WallSegment& s, WallSegment& t, int first, int second, double step, std::vector<WallPoint>& points) {
   const double turn = s.tangent[0] * t.tangent[1] - s.tangent[1] * t.tangent[0];
   if (turn <= 1e-9) return;
-  points.push_back(face_point(s, s.length + step));
-  points.push_back(face_point(t, -step));
+  points.push_back(face_point(s, s.length + step, first));
+  points.push_back(face_point(t, -step, second));
   s.after = t.before = 4 * step;
+  s.next = second;
 }
 
-void sample_chain(std::vector<WallSegment>& chain, bool closed, double spacing, std::vector<WallPoint>& points) {
-  const size_t n = chain.size();
-  for (size_t k = 0; k < n; ++k) {
+// first: the number of the chain's first segment.
+void sample_chain(std::vector<WallSegment>& chain, int first, bool closed, double spacing, std::vector<WallPoint>& points) {
+  const int n = static_cast<int>(chain.size());
+  for (int k = 0; k < n; ++k) {
     WallSegment& s = chain[k];
-    const int steps = std::max(1, static_cast<int>(std::lround(2 * s.length / spacing)));
-    for (int i = 1; i < steps; ++i) points.push_back(face_point(s, s.length * i / steps));
+    const int here = first + k, next = first + (k + 1) % n;
+    const int steps = 2 * std::max(1, static_cast<int>(std::lround(s.length / spacing)));  // in step with a lattice
+    for (int i = 1; i < steps; ++i) points.push_back(face_point(s, s.length * i / steps, here));
     if (k + 1 < n || closed) {
-      WallSegment& next = chain[(k + 1) % n];
-      points.push_back(corner_point(s.b, s, next));
-      extend_corner(s, next, s.length / steps, points);
+      WallSegment& t = chain[next - first];
+      points.push_back(corner_point(s.b, s, t, here));
+      extend_corner(s, t, here, next, s.length / steps, points);
     } else {
-      points.push_back(face_point(s, s.length));
+      points.push_back(face_point(s, s.length, here));
     }
-    if (k == 0 && !closed) points.push_back(face_point(s, 0));
+    if (k == 0 && !closed) points.push_back(face_point(s, 0, here));
   }
 }
 
@@ -78,7 +83,7 @@ Geometry lay_lines(const std::vector<Line>& lines, double spacing) {
     std::vector<WallSegment> chain;
     for (size_t k = 0; k + 1 < line.size(); ++k) chain.push_back(segment_between(line[k], line[k + 1]));
     const bool closed = line.size() > 2 && same(line.front().data(), line.back().data(), 1e-6 * spacing);
-    sample_chain(chain, closed, spacing, g.points);
+    sample_chain(chain, static_cast<int>(g.segments.size()), closed, spacing, g.points);
     g.segments.insert(g.segments.end(), chain.begin(), chain.end());
   }
   return g;
@@ -88,14 +93,14 @@ Geometry lay_ends(const std::vector<Line>& lines, double inside) {
   Geometry g;
   for (const Line& line : lines) {
     const double x = line.front()[0], side = inside > x ? 1.0 : -1.0;
-    g.points.push_back({{x, 0}, {1, 0, 0}});
-    g.segments.push_back({{x, 0}, {x, 0}, {0, 0}, {side, 0}, 0, 0, 0});
+    g.points.push_back({{x, 0}, {1, 0, 0}, static_cast<int>(g.segments.size())});
+    g.segments.push_back({{x, 0}, {x, 0}, {0, 0}, {side, 0}, 0, 0, 0, -1});
   }
   return g;
 }
 
-template <class F>
-void fill(const Field<double>& field, const std::vector<WallPoint>& points, const F& value) {
+template <class T, class F>
+void fill(const Field<T>& field, const std::vector<WallPoint>& points, const F& value) {
   auto host = Kokkos::create_mirror_view(field);
   for (size_t k = 0; k < points.size(); ++k) host(k) = value(points[k]);
   Kokkos::deep_copy(field, host);
@@ -104,8 +109,8 @@ void fill(const Field<double>& field, const std::vector<WallPoint>& points, cons
 }  // namespace
 
 template <int D>
-Walls<D>::Walls(const std::vector<Line>& lines, double spacing, const std::array<double, 2>& inside)
-    : order_(D, spacing), near_(32), depth_(2 * spacing) {
+Walls<D>::Walls(const std::vector<Line>& lines, WallKind kind, double spacing, const std::array<double, 2>& inside)
+    : order_(D, spacing), near_(32), kind_(kind), depth_(2 * spacing) {
   const Geometry g = D == 1 ? lay_ends(lines, inside[0]) : lay_lines(lines, spacing);
   points_ = FieldSet(static_cast<int>(g.points.size()));
   const auto add = [&](const char* name, const auto& value) { fill(points_.real(name, "m", Carry::sort), g.points, value); };
@@ -116,6 +121,7 @@ Walls<D>::Walls(const std::vector<Line>& lines, double spacing, const std::array
     add("pxy", [](const WallPoint& w) { return w.p[1]; });
     add("pyy", [](const WallPoint& w) { return w.p[2]; });
   }
+  fill(points_.integer("segment", "1", Carry::sort), g.points, [](const WallPoint& w) { return w.segment; });
   const Field<int> id = points_.integer("id", "1", Carry::sort);
   Kokkos::parallel_for("walls::number", Range(0, points_.size()), KOKKOS_LAMBDA(int k) { id(k) = k; });
   order_.sort(points_);
@@ -128,18 +134,26 @@ Walls<D>::Walls(const std::vector<Line>& lines, double spacing, const std::array
 
 template <int D>
 WallView<D> Walls<D>::view() const {
-  if constexpr (D == 1)
-    return {true, {points_.real("x")}, {points_.real("pxx")}, near_.view()};
-  else
-    return {true,
-            {points_.real("x"), points_.real("y")},
-            {points_.real("pxx"), points_.real("pxy"), points_.real("pyy")},
-            near_.view()};
+  WallView<D> view;
+  view.on = true;
+  view.near = near_.view();
+  view.mirror = kind_ == WallKind::mirror;
+  view.segment = points_.integer("segment");
+  view.segments = segments_;
+  view.x.x = points_.real("x");
+  view.projector.xx = points_.real("pxx");
+  if constexpr (D == 2) {
+    view.x.y = points_.real("y");
+    view.projector.xy = points_.real("pxy");
+    view.projector.yy = points_.real("pyy");
+  }
+  return view;
 }
 
 template <int D>
 void Walls<D>::find(const ClusterSet& clusters, const VecField<double, D>& x, const Field<double>& h, double margin) {
-  near_.build<D>(clusters, {x, h, order_.rows(), view().x, points_.real("h"), 1.0, margin});
+  const double reach = kind_ == WallKind::mirror ? 2.0 : 1.0;  // a neighbour's image may stand right behind the wall
+  near_.build<D>(clusters, {x, h, order_.rows(), view().x, points_.real("h"), reach, margin});
 }
 
 namespace {

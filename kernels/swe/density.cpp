@@ -90,8 +90,27 @@ struct SolveDensity {
     });
     const Lane per_volume = power<D>(inv_h);
     s.density *= per_volume;
-    if (walls.on) add_walls(c, x, v, D == 1 ? m : m * h0 * inv_h, inv_h, s.wall);
+    if (walls.on && walls.mirror)
+      add_images(c, x, v, inv_h, s.wall);
+    else if (walls.on)
+      add_walls(c, x, v, D == 1 ? m : m * h0 * inv_h, inv_h, s.wall);
     return s;
+  }
+
+  // What the neighbours' images add: the cluster's own image sees the neighbours.
+  KOKKOS_INLINE_FUNCTION void add_images(int c, const Vec<Lane, D>& x, const Vec<Lane, D>& v, Lane inv_h,
+                                         WallSums<Lane, D>& wall) const {
+    const Lane per_volume = power<D>(inv_h);
+    walls.for_each_image(c, x, [&](const Image<D>& image, Lane weight) {
+      const Vec<Lane, D> x_image = image(x), v_image = image.turn(v);
+      Sums<D> s;
+      near.for_each(c, [&](int j) {
+        add_pair<true>(spread(at(p.x, j)) - x_image, spread(at(p.v_pred, j)) - v_image, Lane(p.m(j)), inv_h, s);
+      });
+      wall.density += weight * per_volume * s.density;
+      wall.moment += weight * per_volume * inv_h * trace(s.spread);
+      wall.approach += weight * per_volume * inv_h * s.slope.divergence();
+    });
   }
 
   KOKKOS_INLINE_FUNCTION void add_walls(int c, const Vec<Lane, D>& x, const Vec<Lane, D>& v, Lane mass, Lane inv_h,

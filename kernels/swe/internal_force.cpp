@@ -54,6 +54,20 @@ struct InternalForce {
     return select(q < Lane(Kernel<D>::support), Lane(1.0), Lane(0.0));
   }
 
+  // The force of the neighbours' images: what i's image feels from the neighbours, mirrored back.
+  KOKKOS_INLINE_FUNCTION void add_images(int c, const Here<D>& i, ForceSums<D>& sum) const {
+    walls.for_each_image(c, i.x, [&](const Image<D>& image, Lane weight) {
+      Here<D> other = i;
+      other.x = image(i.x);
+      other.v = image.turn(i.v);
+      if constexpr (Stabilise::gradient) other.strain = image.turn(i.strain);
+      ForceSums<D> felt;
+      near.for_each(c, [&](int j) { add_pair(other, j, felt); });
+      sum.t += weight * image.turn_back(felt.t);
+      sum.signal = larger(sum.signal, weight * felt.signal);
+    });
+  }
+
   // Virtual particles: i's own state and slopes, the normal velocity mirrored.
   KOKKOS_INLINE_FUNCTION void add_wall_point(const Here<D>& i, int k, Lane mass, ForceSums<D>& sum) const {
     const Vec<Lane, D> to_wall = i.x - broadcast(at(walls.x, k)), normal_velocity = broadcast(walls.projector, k) * i.v;
@@ -77,7 +91,9 @@ struct InternalForce {
     if constexpr (Stabilise::gradient) i.strain = me.load(p.strain);
     ForceSums<D> sum;
     near.for_each(c, [&](int j) { add_pair(i, j, sum); });
-    if (walls.on) {
+    if (walls.on && walls.mirror) {
+      add_images(c, i, sum);
+    } else if (walls.on) {
       const Lane mass = D == 1 ? m : m * me.load(p.h0) * i.inv_h;
       walls.near.for_each(c, [&](int k) { add_wall_point(i, k, mass, sum); });
     }

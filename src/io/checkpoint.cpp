@@ -12,9 +12,24 @@ namespace {
 constexpr double format = 1;
 constexpr std::uint64_t metadata_bytes = 128 * 1024;
 
-std::uint64_t bytes_of(const FieldSet& fields) {
-  const auto each = fields.reals().size() * sizeof(double) + fields.integers().size() * sizeof(int);
-  return each * static_cast<std::uint64_t>(fields.size()) + metadata_bytes;
+std::uint64_t bytes_of(const Values& values) {
+  std::uint64_t bytes = 0;
+  for (const auto& [name, value] : values) bytes += value.size() * sizeof(double);
+  return bytes;
+}
+
+template <class T>
+std::uint64_t bytes_of(const std::vector<NamedField<T>>& fields, int size) {
+  std::uint64_t bytes = 0;
+  for (const auto& field : fields)
+    bytes += is_saved(field.carry) ? sizeof(T) * static_cast<unsigned>(size) : 0;
+  return bytes;
+}
+
+std::uint64_t bytes_of(const Checkpoint& checkpoint, const FieldSet& fields) {
+  return bytes_of(fields.reals(), fields.size()) + bytes_of(fields.integers(), fields.size()) +
+         bytes_of(checkpoint.run) + bytes_of(checkpoint.method) + checkpoint.scene_text.size() +
+         metadata_bytes;
 }
 
 template <class T>
@@ -45,7 +60,8 @@ void fill(const Field<T>& field, const std::vector<T>& values) {
 }
 
 template <class T>
-void require_fields(const hdf5::Group& group, const std::vector<NamedField<T>>& fields, const std::string& path) {
+void require_fields(const hdf5::Group& group, const std::vector<NamedField<T>>& fields,
+                    const std::string& path) {
   for (const auto& field : fields) {
     if (is_saved(field.carry) && !group.has(field.name)) {
       throw IoError(path + ": holds no field " + field.name +
@@ -54,8 +70,11 @@ void require_fields(const hdf5::Group& group, const std::vector<NamedField<T>>& 
   }
 }
 
+// The room is reserved first: HDF5 does not recover from a write that fails.
 void write_all(const std::string& path, const Checkpoint& checkpoint, const FieldSet& fields) {
-  auto file = hdf5::File::make(path);
+  hdf5::File::make(path).close();
+  reserve_space(path, bytes_of(checkpoint, fields));
+  auto file = hdf5::File::change(path);
   {
     file.attribute("format", format);
     file.attribute("particles", fields.size());
@@ -74,7 +93,7 @@ void write_all(const std::string& path, const Checkpoint& checkpoint, const Fiel
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint, const FieldSet& fields) {
   const auto parent = std::filesystem::path(path).parent_path();
   const std::string temporary = path + ".new";
-  require_space(parent.empty() ? "." : parent.string(), bytes_of(fields) + checkpoint.scene_text.size());
+  require_space(parent.empty() ? "." : parent.string(), bytes_of(checkpoint, fields));
   try {
     write_all(temporary, checkpoint, fields);
     replace_file(temporary, path);
@@ -90,7 +109,8 @@ Checkpoint read_checkpoint(const std::string& path) {
   if (file.real_attribute("format") != format) {
     throw IoError(path + ": another version of the program wrote it; start the run anew");
   }
-  return {file.text("scene_file"), file.text("scene"), read_values(file.open("run")), read_values(file.open("method"))};
+  return {file.text("scene_file"), file.text("scene"), read_values(file.open("run")),
+          read_values(file.open("method"))};
 }
 
 void read_checkpoint_fields(const std::string& path, FieldSet& fields) {

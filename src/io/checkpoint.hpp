@@ -1,5 +1,6 @@
-// state.h5: everything a run needs to go on, in double precision to the bit. Written beside its name, brought to the
-// disk and then renamed, so that the last good one outlives a full disk or a crash. Failures are IoError.
+// state.h5: everything a run needs to go on, in double precision to the bit. Written beside its name, brought
+// to the disk and then renamed, so that the last good one outlives a full disk or a crash. Failures are
+// IoError.
 #pragma once
 #include <map>
 #include <string>
@@ -18,11 +19,11 @@ struct Checkpoint {
   Values method;           // Method::scalars()
 };
 
-// All fields with Carry::state go to /fields with their unit.
+// All saved fields go to /reals and /integers with their unit.
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint, const FieldSet& fields);
 
 Checkpoint read_checkpoint(const std::string& path);
-// Sets the particle count and every stored field; throws if a state field of `fields` is not in the file.
+// Sets the particle count and every stored field; throws if a saved field of `fields` is not in the file.
 void read_checkpoint_fields(const std::string& path, FieldSet& fields);
 
 }  // namespace freshet

@@ -17,8 +17,10 @@ namespace {
 
 [[noreturn]] void fail(const std::string& path, const std::string& action, int error) {
   std::string text = path + ": " + action + ": " + std::strerror(error);
-  if (error == ENOSPC || error == EDQUOT || error == EFBIG) text += "\n  help: free some space, or choose another directory with --out";
-  if (error == EACCES || error == EROFS) text += "\n  help: choose a directory that you may write to with --out";
+  if (error == ENOSPC || error == EDQUOT || error == EFBIG)
+    text += "\n  help: free some space, or choose another directory with --out";
+  if (error == EACCES || error == EROFS)
+    text += "\n  help: choose a directory that you may write to with --out";
   throw IoError(text);
 }
 
@@ -49,8 +51,10 @@ void require_space(const std::string& directory, std::uint64_t bytes) {
   std::error_code error;
   const auto space = fs::space(directory, error);
   if (error || space.available >= bytes) return;
-  fail(directory, "the next output needs " + std::to_string(bytes >> 10) + " KiB, free are " +
-                      std::to_string(space.available >> 10) + " KiB", ENOSPC);
+  fail(directory,
+       "the next output needs " + std::to_string(bytes >> 10) + " KiB, free are " +
+           std::to_string(space.available >> 10) + " KiB",
+       ENOSPC);
 }
 
 void reserve_space(const std::string& path, std::uint64_t bytes) {

@@ -45,8 +45,9 @@ const NamedField<int>* find_integer(const FieldSet& fields, const std::string& n
 Fluid fluid_on_host(const FieldSet& fields) {
   const auto indices = fluid_indices(fields);
   const auto real = [&](const char* name) { return gather(find_real(fields, name), indices); };
-  return {real("x"),   real("y"),    real("u"), real("v"), real("depth"),
-          real("bed"), real("mass"), real("h"), gather(find_integer(fields, "id"), indices)};
+  return {real("x"),    real("y"),     real("u"),
+          real("v"),    real("depth"), real("bed"),
+          real("mass"), real("h"),     gather(find_integer(fields, "id"), indices)};
 }
 
 int fluid_count(const FieldSet& fields) { return static_cast<int>(fluid_indices(fields).size()); }

@@ -48,7 +48,8 @@ std::string text_of(const GaugeRow& row) {
 void GaugeFile::create(const std::vector<Gauge>& gauges) {
   file_.open(path_, std::ios::binary | std::ios::trunc);
   std::string header = "t [s]";
-  for (const auto& gauge : gauges) header += ',' + title(gauge.name, " elevation [m]") + ',' + title(gauge.name, " dry");
+  for (const auto& gauge : gauges)
+    header += ',' + title(gauge.name, " elevation [m]") + ',' + title(gauge.name, " dry");
   write(header);
 }
 

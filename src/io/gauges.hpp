@@ -1,5 +1,5 @@
-// gauges.csv: one row per gauge time with elevation [m] and a dry mark (1 = dry) per gauge; flushed after each row.
-// Numbers have the shortest digits that read back to the same bits. Failures are IoError.
+// gauges.csv: one row per gauge time with elevation [m] and a dry mark (1 = dry) per gauge; flushed after
+// each row. Numbers have the shortest digits that read back to the same bits. Failures are IoError.
 #pragma once
 #include <fstream>
 #include <string>
@@ -31,8 +31,8 @@ class GaugeFile {
   std::ofstream file_;
 };
 
-// measured.csv: the measured series of all gauges over the union of their times; blank where a gauge has no value.
-// Writes nothing if no gauge has one.
+// measured.csv: the measured series of all gauges over the union of their times; blank where a gauge has no
+// value. Writes nothing if no gauge has one.
 void write_measured(const std::string& path, const std::vector<Gauge>& gauges);
 
 }  // namespace freshet

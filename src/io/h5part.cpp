@@ -90,8 +90,9 @@ ParticleStep read_particle_step(const std::string& path, int step) {
   const auto file = hdf5::File::look(path);
   if (!file.has(group_name(step))) {
     const auto steps = step_numbers(file);
-    throw SceneError(path + ": no step " + std::to_string(step) +
-                     (steps.empty() ? ": the file holds none" : "; the last is " + std::to_string(steps.back())));
+    throw SceneError(
+        path + ": no step " + std::to_string(step) +
+        (steps.empty() ? ": the file holds none" : "; the last is " + std::to_string(steps.back())));
   }
   const auto group = file.open(group_name(step));
   ParticleStep read;

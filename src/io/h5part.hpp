@@ -1,7 +1,8 @@
-// particles.h5part: one group Step#k per output with 1-D arrays x, y [m, float64: UTM positions keep all digits],
-// z = free-surface elevation [m], depth [m], v_0, v_1 [m/s] (float32) and id; attribute TimeValue [s]. The group
-// /freshet holds the scene's text, the program's version and the units. The file is open only while a step is
-// appended, so that it can be read during a run and survives a killed one. Failures are IoError.
+// particles.h5part: one group Step#k per output with 1-D arrays x, y [m, float64: UTM positions keep all
+// digits], z = free-surface elevation [m], depth [m], v_0, v_1 [m/s] (float32) and id; attribute TimeValue
+// [s]. The group /freshet holds the scene's text, the program's version and the units. The file is open only
+// while a step is appended, so that it can be read during a run and survives a killed one. Failures are
+// IoError.
 #pragma once
 #include <string>
 #include <vector>

@@ -22,7 +22,8 @@ void start() {
   (void)started;
 }
 
-// The innermost entry carries the reason, often "file write failed: ..., error message = 'No space left on device', ...".
+// The innermost entry carries the reason, often "file write failed: ..., error message = 'No space left on
+// device', ...".
 herr_t keep_first(unsigned depth, const H5E_error2_t* entry, void* text) {
   if (depth == 0 && entry->desc) *static_cast<std::string*>(text) = entry->desc;
   return 0;
@@ -130,8 +131,7 @@ struct Place {
   }
 };
 
-void write_set(const Place& at, const void* values, std::size_t count, hid_t from,
-               hid_t stored) {
+void write_set(const Place& at, const void* values, std::size_t count, hid_t from, hid_t stored) {
   const hsize_t extent = count;
   Handle space(H5Screate_simple(1, &extent, nullptr), close_space);
   at.expect(space.id(), "cannot size");
@@ -157,7 +157,8 @@ std::vector<T> read_set(const Place& at, hid_t into) {
 void write_attribute(const Place& at, hid_t type, const void* value) {
   if (H5Aexists(at.in, at.name.c_str()) > 0) H5Adelete(at.in, at.name.c_str());
   Handle space(H5Screate(H5S_SCALAR), close_space);
-  Handle attribute(H5Acreate2(at.in, at.name.c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT), close_attribute);
+  Handle attribute(H5Acreate2(at.in, at.name.c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT),
+                   close_attribute);
   at.expect(attribute.id(), "cannot create");
   at.expect(H5Awrite(attribute.id(), type, value), "cannot write");
 }
@@ -189,8 +190,9 @@ void Group::write(const std::string& name, const std::vector<int>& values) const
 void Group::write(const std::string& name, const std::string& text) const {
   const Handle type = text_type(text.size());
   Handle space(H5Screate(H5S_SCALAR), close_space);
-  Handle set(H5Dcreate2(handle_.id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-             close_set);
+  Handle set(
+      H5Dcreate2(handle_.id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+      close_set);
   expect(set.id(), "cannot create " + name);
   expect(H5Dwrite(set.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()), "cannot write " + name);
 }

@@ -1,5 +1,5 @@
-// RAII over the HDF5 C API; hdf5.cpp is the only file that includes it. Every failure is an IoError that names the
-// file, the object and HDF5's innermost reason (such as "No space left on device").
+// RAII over the HDF5 C API; hdf5.cpp is the only file that includes it. Every failure is an IoError that
+// names the file, the object and HDF5's innermost reason (such as "No space left on device").
 #pragma once
 #include <cstdint>
 #include <string>
@@ -38,7 +38,8 @@ class Group {
 
   void write(const std::string& name, const double* values, std::size_t count, Stored stored) const;
   void write(const std::string& name, const int* values, std::size_t count) const;
-  void write(const std::string& name, const std::vector<double>& values, Stored stored = Stored::float64) const;
+  void write(const std::string& name, const std::vector<double>& values,
+             Stored stored = Stored::float64) const;
   void write(const std::string& name, const std::vector<int>& values) const;
   void write(const std::string& name, const std::string& text) const;
   std::vector<double> reals(const std::string& name) const;

@@ -1,5 +1,5 @@
-// Writes JSON objects and arrays with two blanks of indent, in the order of the calls. Numbers read back to the same
-// bits; what is not finite becomes null.
+// Writes JSON objects and arrays with two blanks of indent, in the order of the calls. Numbers read back to
+// the same bits; what is not finite becomes null.
 #pragma once
 #include <cmath>
 #include <string>

@@ -54,17 +54,18 @@ std::string cell(double value, double unit, const char* format) {
 }
 
 void print_gauges(std::FILE* out, const std::vector<GaugeResult>& gauges) {
-  std::fprintf(out, "\n%-12s %8s %8s %8s   %15s   %15s   %15s\n%-12s %8s %8s %8s   %7s %7s   %7s %7s   %7s %7s\n", "gauge",
-               "rmse", "in wave", "max", "peak [cm]", "at [s]", "arrival [s]", "", "[mm]", "[mm]", "[mm]", "run", "meas.",
-               "run", "meas.", "run", "meas.");
+  std::fprintf(out,
+               "\n%-12s %8s %8s %8s   %15s   %15s   %15s\n%-12s %8s %8s %8s   %7s %7s   %7s %7s   %7s %7s\n",
+               "gauge", "rmse", "in wave", "max", "peak [cm]", "at [s]", "arrival [s]", "", "[mm]", "[mm]",
+               "[mm]", "run", "meas.", "run", "meas.", "run", "meas.");
   for (const auto& g : gauges) {
     const auto mm = [](double m) { return cell(m, 1e-3, "%.2f"); };
     const auto cm = [](double m) { return cell(m, 1e-2, "%.2f"); };
     const auto s = [](double t) { return cell(t, 1, "%.2f"); };
     std::fprintf(out, "%-12s %8s %8s %8s   %7s %7s   %7s %7s   %7s %7s\n", g.name.c_str(), mm(g.rmse).c_str(),
-                 mm(g.rmse_window).c_str(), mm(g.max_abs_error).c_str(), cm(g.peak).c_str(), cm(g.measured_peak).c_str(),
-                 s(g.peak_time).c_str(), s(g.measured_peak_time).c_str(), s(g.arrival).c_str(),
-                 s(g.measured_arrival).c_str());
+                 mm(g.rmse_window).c_str(), mm(g.max_abs_error).c_str(), cm(g.peak).c_str(),
+                 cm(g.measured_peak).c_str(), s(g.peak_time).c_str(), s(g.measured_peak_time).c_str(),
+                 s(g.arrival).c_str(), s(g.measured_arrival).c_str());
   }
 }
 
@@ -72,16 +73,20 @@ void print_run_ups(std::FILE* out, const std::vector<RunUpResult>& run_ups) {
   std::fprintf(out, "\n%-12s %12s   %s\n", "run-up", "highest [m]", "measured [m]");
   for (const auto& r : run_ups) {
     const bool known = std::isfinite(r.measured.first);
-    std::fprintf(out, "%-12s %12s   %s\n", r.name.c_str(), cell(r.highest, 1, "%.4f").c_str(),
-                 known ? (cell(r.measured.first, 1, "%.4f") + " ... " + cell(r.measured.second, 1, "%.4f")).c_str() : "-");
+    std::fprintf(
+        out, "%-12s %12s   %s\n", r.name.c_str(), cell(r.highest, 1, "%.4f").c_str(),
+        known ? (cell(r.measured.first, 1, "%.4f") + " ... " + cell(r.measured.second, 1, "%.4f")).c_str()
+              : "-");
   }
 }
 
 void print_errors(std::FILE* out, const ErrorNorms& e) {
-  std::fprintf(out, "\nagainst the exact solution: depth l2 %s, l1 %s, on a grid l2 %s, max %s m; velocity rms %s m/s\n",
-               cell(e.depth_l2_rel, 1, "%.3e").c_str(), cell(e.depth_l1_rel, 1, "%.3e").c_str(),
-               cell(e.grid_l2_rel, 1, "%.3e").c_str(), cell(e.depth_linf, 1, "%.3e").c_str(),
-               cell(e.velocity_l2, 1, "%.3e").c_str());
+  std::fprintf(
+      out,
+      "\nagainst the exact solution: depth l2 %s, l1 %s, on a grid l2 %s, max %s m; velocity rms %s m/s\n",
+      cell(e.depth_l2_rel, 1, "%.3e").c_str(), cell(e.depth_l1_rel, 1, "%.3e").c_str(),
+      cell(e.grid_l2_rel, 1, "%.3e").c_str(), cell(e.depth_linf, 1, "%.3e").c_str(),
+      cell(e.velocity_l2, 1, "%.3e").c_str());
 }
 
 }  // namespace
@@ -107,9 +112,11 @@ void print_tables(std::FILE* out, const Summary& s) {
   if (!s.gauges.empty()) print_gauges(out, s.gauges);
   if (!s.run_ups.empty()) print_run_ups(out, s.run_ups);
   if (s.compared) print_errors(out, s.errors);
-  std::fprintf(out, "\n%ld steps, %d particles, %.2f s of water in %.2f s: %.2f M particle-steps/s on %d thread%s (%s)\n",
-               s.steps, s.final_particles, s.simulated, s.wall, s.particle_steps_per_s / 1e6, s.threads,
-               s.threads == 1 ? "" : "s", s.backend.c_str());
+  std::fprintf(
+      out,
+      "\n%ld steps, %d particles, %.2f s of water in %.2f s: %.2f M particle-steps/s on %d thread%s (%s)\n",
+      s.steps, s.final_particles, s.simulated, s.wall, s.particle_steps_per_s / 1e6, s.threads,
+      s.threads == 1 ? "" : "s", s.backend.c_str());
   std::fprintf(out, "mass: relative error %.1e", s.mass.relative_error);
   if (std::isfinite(s.mass.flux_error)) std::fprintf(out, ", flux error %.2e", s.mass.flux_error);
   std::fputc('\n', out);

@@ -12,10 +12,10 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 struct GaugeResult {
   std::string name;
-  double rmse = unknown, max_abs_error = unknown;                // m, over the measured times that lie in the run
-  double rmse_window = unknown;                                  // m, the same over the window of the main wave
-  std::pair<double, double> window{unknown, unknown};            // s
-  double peak = unknown, peak_time = unknown;                    // m, s, after Gauge::peak_after
+  double rmse = unknown, max_abs_error = unknown;      // m, over the measured times that lie in the run
+  double rmse_window = unknown;                        // m, the same over the window of the main wave
+  std::pair<double, double> window{unknown, unknown};  // s
+  double peak = unknown, peak_time = unknown;          // m, s, after Gauge::peak_after
   double measured_peak = unknown, measured_peak_time = unknown;  // m, s
   double arrival = unknown, measured_arrival = unknown;          // s, first crossing of Gauge::arrival_level
   double dry = 0;                                                // fraction of the rows
@@ -36,7 +36,8 @@ struct ErrorNorms {
 struct MassBalance {
   double initial = unknown, inflow = 0, outflow = 0, final = unknown;  // m3
   double relative_error = unknown;  // |final - initial - inflow + outflow| / initial
-  double flux_error = unknown;      // |inflow - outflow - straddle - flux| / gross flux; unknown without open boundaries
+  double flux_error =
+      unknown;  // |inflow - outflow - straddle - flux| / gross flux; unknown without open boundaries
 };
 
 struct Summary {

@@ -67,7 +67,8 @@ int dispatch(const std::vector<std::string>& words, const Parts& parts) {
     return 0;
   }
   const Command& command = find_command(words[0]);
-  return command.call(parse_arguments(command.name, {words.begin() + 1, words.end()}, command.options), parts);
+  return command.call(parse_arguments(command.name, {words.begin() + 1, words.end()}, command.options),
+                      parts);
 }
 
 // The scene reader's messages already begin with file:line:col: error.
@@ -82,7 +83,9 @@ std::string program_name = "freshet";
 
 const std::vector<Command>& commands() {
   static const std::vector<Command> all{
-      {"run", {{"--out", true}, {"--threads", true}, {"--overwrite", false}, {"--quiet", false}}, run_command},
+      {"run",
+       {{"--out", true}, {"--threads", true}, {"--overwrite", false}, {"--quiet", false}},
+       run_command},
       {"resume", {{"--threads", true}, {"--quiet", false}}, resume_command},
       {"check", {{"--threads", true}}, check_command},
       {"list", {}, list_command},
@@ -98,7 +101,8 @@ int run_cli(int argc, char** argv, const Parts& parts) {
     print_error(error.what());
     return static_cast<int>(error.exit());
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "freshet: internal error: %s\n  please report this with the scene and the command line\n",
+    std::fprintf(stderr,
+                 "freshet: internal error: %s\n  please report this with the scene and the command line\n",
                  error.what());
     return static_cast<int>(Exit::internal);
   }

@@ -14,10 +14,12 @@ namespace freshet {
 namespace fs = std::filesystem;
 namespace {
 
-const std::vector<std::string> result_files{"particles.h5part", "gauges.csv",  "measured.csv",
-                                            "summary.json",     "state.h5",    "diverged.h5"};
+const std::vector<std::string> result_files{"particles.h5part", "gauges.csv", "measured.csv",
+                                            "summary.json",     "state.h5",   "diverged.h5"};
 
-std::string inside(const std::string& directory, const std::string& name) { return (fs::path(directory) / name).string(); }
+std::string inside(const std::string& directory, const std::string& name) {
+  return (fs::path(directory) / name).string();
+}
 
 std::vector<std::string> results_in(const std::string& directory) {
   std::vector<std::string> found;
@@ -55,8 +57,8 @@ RunOptions options_for(const std::string& directory, bool quiet) {
 int finish(Driver& driver, const std::string& directory, bool quiet) {
   const SignalGuard guard;
   if (!driver.run()) {
-    std::printf("stopped at t = %.6g s, step %ld; go on with:\n  %s resume %s\n", driver.clock().t, driver.clock().step,
-                shell_word(program_name).c_str(), shell_word(directory).c_str());
+    std::printf("stopped at t = %.6g s, step %ld; go on with:\n  %s resume %s\n", driver.clock().t,
+                driver.clock().step, shell_word(program_name).c_str(), shell_word(directory).c_str());
     return static_cast<int>(Exit::interrupted);
   }
   const Summary summary = driver.summary();
@@ -68,15 +70,17 @@ int finish(Driver& driver, const std::string& directory, bool quiet) {
 }
 
 void announce(const Scene& scene, const Method& method) {
-  std::printf("%s: %s, %d particles, to t = %g s, %d thread%s (%s)\n  %s\n", scene.name.c_str(), method.name().c_str(),
-              method.fields().size(), scene.end_time, thread_count(), thread_count() == 1 ? "" : "s", backend_name(),
-              joined(method.features(), ", ").c_str());
+  std::printf("%s: %s, %d particles, to t = %g s, %d thread%s (%s)\n  %s\n", scene.name.c_str(),
+              method.name().c_str(), method.fields().size(), scene.end_time, thread_count(),
+              thread_count() == 1 ? "" : "s", backend_name(), joined(method.features(), ", ").c_str());
 }
 
 std::string one_word(const Arguments& arguments, const std::string& usage) {
   if (arguments.words.size() == 1) return arguments.words[0];
-  throw SceneError((arguments.words.empty() ? "too few words; usage: freshet " :
-                    "'" + arguments.words[1] + "' is one word too many; usage: freshet ") + usage);
+  throw SceneError((arguments.words.empty()
+                        ? "too few words; usage: freshet "
+                        : "'" + arguments.words[1] + "' is one word too many; usage: freshet ") +
+                   usage);
 }
 
 }  // namespace
@@ -86,7 +90,8 @@ std::unique_ptr<Runtime> start_kokkos(int threads) {
 }
 
 int run_command(const Arguments& arguments, const Parts& parts) {
-  const std::string word = one_word(arguments, "run SCENE [key=value ...] [--out DIR] [--threads N] [--overwrite] [--quiet]");
+  const std::string word =
+      one_word(arguments, "run SCENE [key=value ...] [--out DIR] [--threads N] [--overwrite] [--quiet]");
   const Scene scene = parts.read(find_scene(word), arguments.overrides);
   const bool quiet = arguments.has("--quiet");
   const std::string directory = arguments.value("--out", "out/" + scene.name);
@@ -103,8 +108,9 @@ int resume_command(const Arguments& arguments, const Parts& parts) {
   const std::string directory = one_word(arguments, "resume DIR [--threads N] [--quiet]");
   const std::string state = inside(directory, "state.h5");
   if (!fs::exists(state)) {
-    throw SceneError(directory + " holds no state.h5 to go on with" +
-                     "\n  help: it is written every output.checkpoint_every seconds, on Ctrl-C and at the end of a run");
+    throw SceneError(
+        directory + " holds no state.h5 to go on with" +
+        "\n  help: it is written every output.checkpoint_every seconds, on Ctrl-C and at the end of a run");
   }
   const Checkpoint checkpoint = read_checkpoint(state);
   const Scene scene = parts.read_again(checkpoint.scene_text, checkpoint.scene_file);

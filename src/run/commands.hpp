@@ -27,7 +27,7 @@ int points_command(const Arguments& arguments, const Parts& parts);
 void print_version();
 
 struct Case {
-  std::string name;     // file name without .toml
+  std::string name;  // file name without .toml
   std::string path;
   std::string comment;  // the first clause of the comment that the file begins with
 };
@@ -36,7 +36,8 @@ std::vector<Case> find_cases();  // in ./cases, else in the checkout that the pr
 // A path to a scene, or a name in cases/. Throws SceneError with a suggestion.
 std::string find_scene(const std::string& path_or_case);
 
-// Starts Kokkos unless the process (a test) has started it already: it can be done once only. threads = 0: all cores.
+// Starts Kokkos unless the process (a test) has started it already: it can be done once only. threads = 0:
+// all cores.
 std::unique_ptr<Runtime> start_kokkos(int threads);
 
 // How the user called the program, for commands that we tell him to type.

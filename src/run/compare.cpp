@@ -27,7 +27,8 @@ struct Span {
 
 // The cells whose centre is within `reach` of `at`.
 Span cells_within(double at, double reach, double low, double cell, int count) {
-  const double first = std::ceil((at - reach - low) / cell - 0.5), last = std::floor((at + reach - low) / cell - 0.5);
+  const double first = std::ceil((at - reach - low) / cell - 0.5),
+               last = std::floor((at + reach - low) / cell - 0.5);
   return {static_cast<int>(std::max(first, 0.0)), static_cast<int>(std::min(last, count - 1.0))};
 }
 
@@ -38,12 +39,14 @@ struct Sums {
 void scatter(const Grid& grid, int dimension, const Fluid& fluid, std::size_t k, Sums& sums) {
   const double h = fluid.h[k], reach = 2 * h;
   const Span in_x = cells_within(fluid.x[k], reach, grid.low[0], grid.cell[0], grid.count[0]);
-  const Span in_y = dimension == 1 ? Span{0, 0} : cells_within(fluid.y[k], reach, grid.low[1], grid.cell[1], grid.count[1]);
+  const Span in_y =
+      dimension == 1 ? Span{0, 0} : cells_within(fluid.y[k], reach, grid.low[1], grid.cell[1], grid.count[1]);
   for (int j = in_y.first; j <= in_y.last; ++j) {
     for (int i = in_x.first; i <= in_x.last; ++i) {
       const double dy = dimension == 1 ? 0 : grid.y(j) - fluid.y[k];
       const double w = cubic_spline(std::hypot(grid.x(i) - fluid.x[k], dy) / h, h, dimension);
-      const auto cell = static_cast<std::size_t>(j) * static_cast<std::size_t>(grid.count[0]) + static_cast<std::size_t>(i);
+      const auto cell =
+          static_cast<std::size_t>(j) * static_cast<std::size_t>(grid.count[0]) + static_cast<std::size_t>(i);
       sums.mass[cell] += fluid.mass[k] * w;
       sums.volume[cell] += fluid.mass[k] / fluid.depth[k] * w;
     }

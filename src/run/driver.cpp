@@ -84,7 +84,8 @@ void Driver::fire_events() {
     write_particles();
   }
   const bool periodic = scene_.output.checkpoint_every > 0 && !finished(clock_, scene_);
-  if (periodic && progress_.elapsed() - last_checkpoint_ >= scene_.output.checkpoint_every) write_state("state.h5");
+  if (periodic && progress_.elapsed() - last_checkpoint_ >= scene_.output.checkpoint_every)
+    write_state("state.h5");
 }
 
 void Driver::write_particles() {
@@ -108,7 +109,8 @@ void Driver::give_up(const Diverged& why) {
   try {
     particles_.append(static_cast<int>(events_.outputs.done()), clock_.t, method_.fields());
     write_state("diverged.h5");
-    text += "\n  its state: " + inside(options_.directory, "diverged.h5") + ", and the last step of particles.h5part";
+    text += "\n  its state: " + inside(options_.directory, "diverged.h5") +
+            ", and the last step of particles.h5part";
   } catch (const IoError& also) {
     text += "\n  its state could not be written: " + std::string(also.what());
   }
@@ -122,7 +124,8 @@ void Driver::show_progress() {
 Values Driver::run_values() const {
   Values values;
   values["clock"] = {clock_.t, static_cast<double>(clock_.step)};
-  values["events_done"] = {static_cast<double>(events_.outputs.done()), static_cast<double>(events_.comparisons.done())};
+  values["events_done"] = {static_cast<double>(events_.outputs.done()),
+                           static_cast<double>(events_.comparisons.done())};
   values["initial"] = {monitor_.initial_mass(), static_cast<double>(initial_particles_)};
   values["depth_l1_rel"] = l1_samples_;
   values["effort"] = {wall(), earlier_particle_steps_ + progress_.particle_steps()};

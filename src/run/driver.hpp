@@ -15,10 +15,10 @@
 namespace freshet {
 
 struct RunOptions {
-  std::string directory;                     // exists
-  std::FILE* progress = nullptr;             // nullptr: no progress lines
-  bool terminal = false;                     // progress goes to a terminal
-  const std::atomic<bool>* stop = nullptr;   // finish the step and leave when it becomes true
+  std::string directory;                    // exists
+  std::FILE* progress = nullptr;            // nullptr: no progress lines
+  bool terminal = false;                    // progress goes to a terminal
+  const std::atomic<bool>* stop = nullptr;  // finish the step and leave when it becomes true
 };
 
 class Driver {
@@ -26,10 +26,10 @@ class Driver {
   // Keeps references to the scene and the method.
   Driver(const Scene& scene, Method& method, RunOptions options);
 
-  void begin();                                 // a new run: files, first output, mass at the start
-  void restore(const Checkpoint& checkpoint);   // goes on; the method has its fields and scalars already
-  // To the end of the scene (true) or until the stop flag (false); the state is written either way. If the run diverges the
-  // state goes to diverged.h5, the last good state.h5 stays, and Diverged is thrown.
+  void begin();                                // a new run: files, first output, mass at the start
+  void restore(const Checkpoint& checkpoint);  // goes on; the method has its fields and scalars already
+  // To the end of the scene (true) or until the stop flag (false); the state is written either way. If the
+  // run diverges the state goes to diverged.h5, the last good state.h5 stays, and Diverged is thrown.
   bool run();
   const Clock& clock() const { return clock_; }
   Summary summary() const;

@@ -23,7 +23,8 @@ std::vector<double> comparison_times(const Compare& compare, double end) {
   std::vector<double> times;
   if (!compare.exact) return times;
   const int intervals = std::max(compare.samples - 1, 1);
-  for (int k = std::max(compare.samples - 1, 0); k >= 0; --k) times.push_back(end - compare.window * k / intervals);
+  for (int k = std::max(compare.samples - 1, 0); k >= 0; --k)
+    times.push_back(end - compare.window * k / intervals);
   times.erase(times.begin(), std::find_if(times.begin(), times.end(), [](double t) { return t >= 0; }));
   return times;
 }

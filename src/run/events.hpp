@@ -34,8 +34,9 @@ std::vector<double> regular_times(double interval, double end);
 std::vector<double> comparison_times(const Compare& compare, double end);
 
 struct Stride {
-  double dt;     // s
-  double until;  // s, time after the step: the event's own time, not a rounded sum, where the step ends on one
+  double dt;  // s
+  double
+      until;  // s, time after the step: the event's own time, not a rounded sum, where the step ends on one
 };
 
 struct Events {
@@ -43,7 +44,8 @@ struct Events {
   double end;  // s
   explicit Events(const Scene& scene);
 
-  // The stable step, made shorter so that the time left to the next event is split into equal steps: no tiny one remains.
+  // The stable step, made shorter so that the time left to the next event is split into equal steps: no tiny
+  // one remains.
   Stride shorten(const Clock& clock, double stable_dt) const;
 };
 

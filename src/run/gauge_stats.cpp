@@ -84,7 +84,8 @@ GaugeResult compare_gauge(const Gauge& gauge, const std::vector<GaugeRow>& rows,
   result.peak = peak.value;
   result.peak_time = peak.t;
   result.arrival = arrival_after(computed, gauge.arrival_level, gauge.peak_after, end);
-  const auto dry = std::count_if(rows.begin(), rows.end(), [&](const GaugeRow& row) { return row.dry[index]; });
+  const auto dry =
+      std::count_if(rows.begin(), rows.end(), [&](const GaugeRow& row) { return row.dry[index]; });
   result.dry = static_cast<double>(dry) / static_cast<double>(rows.size());
   if (gauge.measured) compare_with_measured(gauge, computed, result);
   return result;

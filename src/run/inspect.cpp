@@ -44,8 +44,8 @@ void print_method(const Scene& scene, const Method& method) {
   std::printf("\nmemory      %.1f MB in %zu fields; neighbour lists come on top\n", megabytes(fields),
               fields.reals().size() + fields.integers().size());
   const double dt = method.stable_dt();
-  std::printf("steps       about %.0f of %.3g s (the first stable step) to t = %g s\n", std::ceil(scene.end_time / dt), dt,
-              scene.end_time);
+  std::printf("steps       about %.0f of %.3g s (the first stable step) to t = %g s\n",
+              std::ceil(scene.end_time / dt), dt, scene.end_time);
   std::printf("water       %.9g m3\n", method.totals().mass);
   for (const auto& feature : method.features()) std::printf("on          %s\n", feature.c_str());
 }
@@ -54,7 +54,8 @@ void print_rows(std::FILE* out, const ParticleStep& step) {
   const bool flat = step.v_1.empty();
   std::fprintf(out, "x [m],y [m],z [m],depth [m],v_0 [m/s]%s\n", flat ? "" : ",v_1 [m/s]");
   for (std::size_t i = 0; i < step.x.size(); ++i) {
-    std::fprintf(out, "%.12g,%.12g,%.8g,%.8g,%.8g", step.x[i], step.y[i], step.z[i], step.depth[i], step.v_0[i]);
+    std::fprintf(out, "%.12g,%.12g,%.8g,%.8g,%.8g", step.x[i], step.y[i], step.z[i], step.depth[i],
+                 step.v_0[i]);
     if (!flat) std::fprintf(out, ",%.8g", step.v_1[i]);
     std::fputc('\n', out);
   }
@@ -77,7 +78,8 @@ std::vector<Case> find_cases() {
   if (!fs::is_directory(folder)) return cases;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const fs::path& path = entry.path();
-    if (path.extension() == ".toml") cases.push_back({path.stem().string(), path.string(), first_comment(path)});
+    if (path.extension() == ".toml")
+      cases.push_back({path.stem().string(), path.string(), first_comment(path)});
   }
   std::sort(cases.begin(), cases.end(), [](const Case& a, const Case& b) { return a.name < b.name; });
   return cases;
@@ -110,7 +112,8 @@ int list_command(const Arguments&, const Parts&) {
 }
 
 int points_command(const Arguments& arguments, const Parts&) {
-  if (arguments.words.size() != 1) throw SceneError("usage: freshet points DIR --step K [--csv FILE|-] | --list");
+  if (arguments.words.size() != 1)
+    throw SceneError("usage: freshet points DIR --step K [--csv FILE|-] | --list");
   const fs::path given = arguments.words[0];
   const std::string path = fs::is_directory(given) ? (given / "particles.h5part").string() : given.string();
   if (!fs::exists(path)) throw SceneError(path + " is not there: 'freshet run' writes it");
@@ -122,14 +125,16 @@ int points_command(const Arguments& arguments, const Parts&) {
   }
   const int last = steps.empty() ? 0 : steps.back().step;
   const bool wants_last = arguments.value("--step", "last") == "last";
-  write_rows(arguments.value("--csv", "-"), read_particle_step(path, wants_last ? last : arguments.number("--step", 0, 0)));
+  write_rows(arguments.value("--csv", "-"),
+             read_particle_step(path, wants_last ? last : arguments.number("--step", 0, 0)));
   return 0;
 }
 
 void print_version() {
   const auto runtime = start_kokkos(0);
-  std::printf("freshet %s (%s)\nbackend   %s, %d threads\nKokkos    %s\ncompiler  %s\nbuild     %s: %s\n", build::version,
-              build::git, backend_name(), thread_count(), build::kokkos, build::compiler, build::type, build::flags);
+  std::printf("freshet %s (%s)\nbackend   %s, %d threads\nKokkos    %s\ncompiler  %s\nbuild     %s: %s\n",
+              build::version, build::git, backend_name(), thread_count(), build::kokkos, build::compiler,
+              build::type, build::flags);
 }
 
 }  // namespace freshet

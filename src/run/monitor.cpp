@@ -12,16 +12,21 @@ namespace freshet {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double margin_in_h = 4;    // a few smoothing lengths: walls act within 2 h, so a particle beyond is lost
-constexpr double buffer_in_dx = 6;   // depth of an open boundary's buffer outside the domain
+constexpr double margin_in_h =
+    4;  // a few smoothing lengths: walls act within 2 h, so a particle beyond is lost
+constexpr double buffer_in_dx = 6;  // depth of an open boundary's buffer outside the domain
 
 Allowed allowed_in(const Scene& scene) {
   const double dx = scene.water.spacing;
   const double margin = margin_in_h * scene.sph.eta * dx + (scene.boundaries.empty() ? 0 : buffer_in_dx * dx);
   const Point low = scene.domain.low, high = scene.domain.high;
   const bool flat = scene.domain.dimension == 1;
-  return {low[0] - margin, high[0] + margin, flat ? -infinity : low[1] - margin, flat ? infinity : high[1] + margin,
-          margin, scene.limits.speed};
+  return {low[0] - margin,
+          high[0] + margin,
+          flat ? -infinity : low[1] - margin,
+          flat ? infinity : high[1] + margin,
+          margin,
+          scene.limits.speed};
 }
 
 std::string text(double value) {
@@ -30,7 +35,9 @@ std::string text(double value) {
   return digits;
 }
 
-std::string when(const Clock& clock) { return "at t = " + text(clock.t) + " s, step " + std::to_string(clock.step); }
+std::string when(const Clock& clock) {
+  return "at t = " + text(clock.t) + " s, step " + std::to_string(clock.step);
+}
 
 Field<double> field_or(const FieldSet& fields, const char* name, const char* fallback) {
   const auto* field = find_real(fields, name);
@@ -48,7 +55,8 @@ int count_bad(const FieldSet& fields, const Allowed& in) {
       "run::monitor", Range(0, fields.size()),
       KOKKOS_LAMBDA(int i, int& count) {
         const bool inside = x(i) >= in.x_low && x(i) <= in.x_high && y(i) >= in.y_low && y(i) <= in.y_high;
-        const bool sound = depth(i) >= 0 && depth(i) < infinity && u(i) * u(i) + second * v(i) * v(i) <= limit2;
+        const bool sound =
+            depth(i) >= 0 && depth(i) < infinity && u(i) * u(i) + second * v(i) * v(i) <= limit2;
         count += inside && sound ? 0 : 1;
       },
       bad);
@@ -79,8 +87,10 @@ class Particles {
 
   // What is wrong with particle i, and the limit; "" if nothing is.
   std::string fault(int i, const Allowed& in) const {
-    const double v = v_.extent(0) ? v_(i) : 0, y = y_.extent(0) ? y_(i) : in.y_low, speed = std::hypot(u_(i), v);
-    if (const std::string value = not_finite(i); !value.empty()) return value + "; limit: every value is finite";
+    const double v = v_.extent(0) ? v_(i) : 0, y = y_.extent(0) ? y_(i) : in.y_low,
+                 speed = std::hypot(u_(i), v);
+    if (const std::string value = not_finite(i); !value.empty())
+      return value + "; limit: every value is finite";
     if (depth_(i) < 0) return "depth = " + text(depth_(i)) + " m; limit: no depth is negative";
     if (speed > in.speed) {
       return "speed = " + text(speed) + " m/s; limit: limits.speed = " + text(in.speed) + " m/s";
@@ -96,7 +106,8 @@ class Particles {
   std::string not_finite(int i) const {
     for (std::size_t f = 0; f < host_.size(); ++f) {
       const auto& field = fields_.reals()[f];
-      if (field.carry != Carry::no && !std::isfinite(host_[f](i))) return field.name + " = " + text(host_[f](i));
+      if (field.carry != Carry::no && !std::isfinite(host_[f](i)))
+        return field.name + " = " + text(host_[f](i));
     }
     return "";
   }
@@ -137,8 +148,9 @@ void Monitor::check_all(const Method& method, const Clock& clock) const {
   const double error = mass_error(totals);
   if (error <= mass_limit_) return;
   throw Diverged("the mass balance broke " + when(clock) + ": " + text(totals.mass) + " m3 of water, " +
-                 text(initial_mass_) + " m3 at the start, " + text(totals.inflow) + " m3 in, " + text(totals.outflow) +
-                 " m3 out: relative error " + text(error) + "; limit: limits.mass_error = " + text(mass_limit_));
+                 text(initial_mass_) + " m3 at the start, " + text(totals.inflow) + " m3 in, " +
+                 text(totals.outflow) + " m3 out: relative error " + text(error) +
+                 "; limit: limits.mass_error = " + text(mass_limit_));
 }
 
 void Monitor::check_dt(double dt, const Clock& clock) const {

@@ -1,5 +1,6 @@
-// Stops a run that has gone wrong: values that are not finite, negative depth, speed above the limit, particles outside
-// the domain, water that appears or vanishes. Throws Diverged with what, which particle, where, when, which limit.
+// Stops a run that has gone wrong: values that are not finite, negative depth, speed above the limit,
+// particles outside the domain, water that appears or vanishes. Throws Diverged with what, which particle,
+// where, when, which limit.
 #pragma once
 #include "src/method.hpp"
 #include "src/run/events.hpp"

@@ -48,9 +48,11 @@ void Progress::show(const ProgressState& state) {
   const double left = done > 0 ? last_ * (end_ - state.clock.t) / done : 0;
   char line[256];
   std::snprintf(line, sizeof line,
-                "%5.1f %%  t %.6g s  dt %.3g s  step %ld  %d particles  %.2f M particle-steps/s  mass error %.1e  %s left",
-                percent(state.clock.t, end_), state.clock.t, state.dt, state.clock.step, state.particles,
-                particle_steps_ / std::max(last_, 1e-9) / 1e6, state.mass_error, duration(left).c_str());
+                "%5.1f %%  %s left  t %.6g s  dt %.3g s  step %ld  %d particles  mass error %.0e  "
+                "%.2f M particle-steps/s",
+                percent(state.clock.t, end_), duration(left).c_str(), state.clock.t, state.dt,
+                state.clock.step, state.particles, state.mass_error,
+                particle_steps_ / std::max(last_, 1e-9) / 1e6);
   // A line that wraps could not be rewritten in place.
   if (terminal_) std::fprintf(out_, "\r%.*s\033[K", columns(out_) - 1, line);
   else std::fprintf(out_, "%s\n", line);

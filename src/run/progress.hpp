@@ -1,5 +1,6 @@
-// The progress line: %, t, dt, step, particles, particle-steps per second, mass error, time left. On a terminal it is
-// rewritten in place at most five times a second, elsewhere a plain line appears at every 10 %.
+// The progress line: %, t, dt, step, particles, particle-steps per second, mass error, time left. On a
+// terminal it is rewritten in place at most five times a second, elsewhere a plain line appears at every 10
+// %.
 #pragma once
 #include <chrono>
 #include <cstdio>
@@ -25,7 +26,7 @@ class Progress {
   void show(const ProgressState& state);
   void end_line();  // leaves the line on the terminal as it is
 
-  double elapsed() const;                                   // s of wall clock since construction
+  double elapsed() const;                                    // s of wall clock since construction
   double particle_steps() const { return particle_steps_; }  // of this process
 
  private:

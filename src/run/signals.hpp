@@ -1,5 +1,6 @@
-// SIGINT and SIGTERM ask the run to stop after the step at hand. One that comes more than a second after the first ends the
-// program at once; sooner ones are echoes (timeout(1) and batch systems signal a process and then its group).
+// SIGINT and SIGTERM ask the run to stop after the step at hand. One that comes more than a second after the
+// first ends the program at once; sooner ones are echoes (timeout(1) and batch systems signal a process and
+// then its group).
 #pragma once
 #include <atomic>
 #include <csignal>

@@ -78,7 +78,8 @@ void GaugeRecorder::restore(const Values& values) {
   times_.skip_to(rows);
 }
 
-RunUpRecorder::RunUpRecorder(const std::vector<RunUp>& points) : points_(points), highest_(points.size(), -1e300) {}
+RunUpRecorder::RunUpRecorder(const std::vector<RunUp>& points)
+    : points_(points), highest_(points.size(), -1e300) {}
 
 void RunUpRecorder::record(const Method& method) {
   for (std::size_t k = 0; k < points_.size(); ++k) {

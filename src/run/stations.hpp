@@ -1,4 +1,5 @@
-// What is observed at fixed places: gauges (rows of gauges.csv at their own times, which never shorten dt) and run-ups.
+// What is observed at fixed places: gauges (rows of gauges.csv at their own times, which never shorten dt)
+// and run-ups.
 #pragma once
 #include <string>
 #include <vector>
@@ -36,8 +37,8 @@ class GaugeRecorder {
   Timetable times_;
   GaugeFile file_;
   std::vector<GaugeRow> rows_;
-  double watched_t_ = -1;                // s, time of watched_
-  std::vector<PointState> watched_;      // state before the step
+  double watched_t_ = -1;            // s, time of watched_
+  std::vector<PointState> watched_;  // state before the step
 };
 
 // Highest bed level [m] that was wet at each run-up point so far.

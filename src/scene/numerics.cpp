@@ -1,4 +1,6 @@
 // [scene], [domain], [sph], [time], [output], [limits]: plain numbers and choices.
+#include <cmath>
+
 #include "src/reference/exact.hpp"
 #include "src/scene/sections.hpp"
 
@@ -51,8 +53,10 @@ bool read_sph(Table& section, Scene& scene) {
   sph.strength = section.number("strength").at_least(0).otherwise(sph.strength);
   sph.newton_tolerance =
       section.number("newton_tolerance").within(1e-14, 0.1).otherwise(sph.newton_tolerance);
-  sph.h_floor = section.number("h_floor").within(0, 1).otherwise(sph.h_floor);
+  // What a density 1.6 times the initial one gives.
+  sph.h_floor = section.number("h_floor").within(0, 1).otherwise(std::pow(1.6, -1.0 / scene.domain.dimension));
   sph.h_cap = section.number("h_cap").at_least(1).otherwise(sph.h_cap);
+  sph.mirror_walls = section.choice<bool>("walls", {{"mvbp", false}, {"mirror", true}}).otherwise(sph.mirror_walls);
   const auto acceleration =
       section
           .choice<Acceleration>("acceleration", {{"classical", Acceleration::classical},

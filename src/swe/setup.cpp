@@ -32,14 +32,16 @@ OpenLine<2> open_line(const std::array<Point, 2>& line, Vec<double, 2>) {
   return {{line[0][0], line[0][1]}, {-ty / length, tx / length}, {tx / length, ty / length}, length};
 }
 
-// A wall that ends on an open line goes on beside its buffer.
-void extend_past(std::vector<Point>& wall, const std::vector<freshet::OpenBoundary>& boundaries, double by) {
+// A wall that ends on an open line goes on beside its buffer, by whole cells of the lattice that fits its length.
+void extend_past(std::vector<Point>& wall, const std::vector<freshet::OpenBoundary>& boundaries, double spacing) {
+  constexpr double cells = 8;
   const auto extend = [&](Point& end, const Point& before) {
     for (const auto& boundary : boundaries)
       for (const Point& corner : boundary.line) {
-        if (std::hypot(end[0] - corner[0], end[1] - corner[1]) > 1e-3 * by) continue;
+        if (std::hypot(end[0] - corner[0], end[1] - corner[1]) > 1e-3 * spacing) continue;
         const double length = std::hypot(end[0] - before[0], end[1] - before[1]);
-        for (int k = 0; k < 2; ++k) end[k] += by * (end[k] - before[k]) / length;
+        const double share = cells / std::max(1.0, std::round(length / spacing));
+        for (int k = 0; k < 2; ++k) end[k] += share * (end[k] - before[k]);
         return;
       }
   };
@@ -73,10 +75,10 @@ void Solver<D>::build_walls() {
   std::vector<std::vector<Point>> lines;
   for (const Wall& wall : scene_.walls) {
     lines.push_back(wall.line);
-    if (D == 2) extend_past(lines.back(), scene_.boundaries, 8 * scene_.water.spacing);
+    if (D == 2) extend_past(lines.back(), scene_.boundaries, scene_.water.spacing);
   }
   const Point middle{0.5 * (scene_.domain.low[0] + scene_.domain.high[0]), 0.5 * (scene_.domain.low[1] + scene_.domain.high[1])};
-  walls_.emplace(lines, scene_.water.spacing, middle);
+  walls_.emplace(lines, scene_.sph.mirror_walls ? WallKind::mirror : WallKind::mvbp, scene_.water.spacing, middle);
 }
 
 template <int D>

@@ -21,7 +21,8 @@ using Factory = std::function<std::unique_ptr<Method>(const Scene&)>;
 // Passes everything on and sets a flag at the end of the given step.
 class Interrupted : public Method {
  public:
-  Interrupted(Method& method, long steps, std::atomic<bool>& stop) : method_(method), left_(steps), stop_(stop) {}
+  Interrupted(Method& method, long steps, std::atomic<bool>& stop)
+      : method_(method), left_(steps), stop_(stop) {}
   std::string name() const override { return method_.name(); }
   int dimension() const override { return method_.dimension(); }
   double stable_dt() const override { return method_.stable_dt(); }
@@ -33,7 +34,9 @@ class Interrupted : public Method {
   const FieldSet& fields() const override { return method_.fields(); }
   Totals totals() const override { return method_.totals(); }
   StepReport report() const override { return method_.report(); }
-  std::vector<PointState> sample(const std::vector<Point>& points) const override { return method_.sample(points); }
+  std::vector<PointState> sample(const std::vector<Point>& points) const override {
+    return method_.sample(points);
+  }
   double highest_wet_bed(const Point& at, double radius, double min_depth) const override {
     return method_.highest_wet_bed(at, radius, min_depth);
   }
@@ -47,7 +50,8 @@ class Interrupted : public Method {
   std::atomic<bool>& stop_;
 };
 
-// One process' share of a run: from the checkpoint in the directory, if there is one, through so many steps. True at the end.
+// One process' share of a run: from the checkpoint in the directory, if there is one, through so many steps.
+// True at the end.
 bool run_steps(const Scene& scene, const Factory& make, const test::Scratch& scratch, long steps) {
   std::atomic<bool> stop{false};
   const auto method = make(scene);
@@ -89,8 +93,11 @@ void require_same_results(const test::Scratch& a, const test::Scratch& b, const 
   REQUIRE(steps.size() == list_particle_steps(b / "particles.h5part").size());
   for (const auto& step : steps) {
     CAPTURE(step.step);
-    const auto of = [&](const test::Scratch& s) { return read_particle_step(s / "particles.h5part", step.step); };
-    CHECK((of(a).x == of(b).x && of(a).depth == of(b).depth && of(a).v_0 == of(b).v_0 && of(a).id == of(b).id));
+    const auto of = [&](const test::Scratch& s) {
+      return read_particle_step(s / "particles.h5part", step.step);
+    };
+    CHECK(
+        (of(a).x == of(b).x && of(a).depth == of(b).depth && of(a).v_0 == of(b).v_0 && of(a).id == of(b).id));
   }
 }
 
@@ -123,7 +130,8 @@ TEST_CASE("what was written after the last checkpoint is written again, not twic
   REQUIRE_FALSE(run_steps(scene, make_fake, crashed, 20));
   const std::string checkpoint = read_text(crashed / "state.h5");
   REQUIRE_FALSE(run_steps(scene, make_fake, crashed, 30));
-  write_text(crashed / "state.h5", checkpoint);  // as if the process had been killed: outputs are newer than the state
+  write_text(crashed / "state.h5",
+             checkpoint);  // as if the process had been killed: outputs are newer than the state
   REQUIRE(run_steps(scene, make_fake, crashed, -1));
   require_same_results(straight, crashed, scene);
 }

@@ -1,5 +1,6 @@
-// A method without physics for tests of the run loop: particles fly in a box, bounce off its sides, and carry a depth that
-// depends on their whole history, so that any state lost on a restart shows. One thread of control decides everything.
+// A method without physics for tests of the run loop: particles fly in a box, bounce off its sides, and carry
+// a depth that depends on their whole history, so that any state lost on a restart shows. One thread of
+// control decides everything.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -68,13 +69,16 @@ class FakeMethod : public Method {
   double highest_wet_bed(const Point& at, double radius, double min_depth) const override {
     double highest = -1e300;
     for (int i = 0; i < fields_.size(); ++i) {
-      if (distance(i, at) <= radius && get("depth")(i) >= min_depth) highest = std::max(highest, get("bed")(i));
+      if (distance(i, at) <= radius && get("depth")(i) >= min_depth)
+        highest = std::max(highest, get("bed")(i));
     }
     return highest;
   }
 
   std::vector<std::string> features() const override { return {"flight"}; }
-  ScalarState scalars() const override { return {{"phase", {phase_}}, {"steps", {static_cast<double>(steps_)}}}; }
+  ScalarState scalars() const override {
+    return {{"phase", {phase_}}, {"steps", {static_cast<double>(steps_)}}};
+  }
   void restore(const ScalarState& scalars) override {
     phase_ = scalars.at("phase").at(0);
     steps_ = std::lround(scalars.at("steps").at(0));
@@ -83,8 +87,8 @@ class FakeMethod : public Method {
  private:
   bool two_d() const { return scene_.domain.dimension == 2; }
   // The tests' execution spaces share the host's memory.
-  Field<double> get(const char* field) const { return const_cast<FieldSet&>(fields_).real(field); }
-  Field<int> id() const { return const_cast<FieldSet&>(fields_).integer("id"); }
+  Field<double> get(const char* field) const { return fields_.real(field); }
+  Field<int> id() const { return fields_.integer("id"); }
 
   void make_fields() {
     for (const char* name : {"x", "bed", "depth", "h"}) fields_.real(name, "m", Carry::state);

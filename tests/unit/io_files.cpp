@@ -22,8 +22,9 @@ TEST_CASE("an output that does not fit is refused before it begins") {
   const test::Scratch scratch;
   CHECK_NOTHROW(require_space(scratch.path(), 1));
   // 2^60 bytes: more than any file system here has.
-  CHECK_THROWS_WITH(require_space(scratch.path(), std::uint64_t(1) << 60),
-                    Catch::Contains(scratch.path()) && Catch::Contains("No space left") && Catch::Contains("--out"));
+  CHECK_THROWS_WITH(
+      require_space(scratch.path(), std::uint64_t(1) << 60),
+      Catch::Contains(scratch.path()) && Catch::Contains("No space left") && Catch::Contains("--out"));
 }
 
 TEST_CASE("text files are replaced as a whole") {

@@ -59,7 +59,8 @@ TEST_CASE("a gauge file with fewer rows than the checkpoint counts is an error")
 
 TEST_CASE("gauge rows on a full device are an error") {
   GaugeFile file("/dev/full");
-  CHECK_THROWS_WITH(file.create(two_gauges()), Catch::Contains("/dev/full") && Catch::Contains("No space left"));
+  CHECK_THROWS_WITH(file.create(two_gauges()),
+                    Catch::Contains("/dev/full") && Catch::Contains("No space left"));
 }
 
 TEST_CASE("measured series stand over the union of their times") {

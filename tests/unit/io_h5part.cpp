@@ -14,7 +14,8 @@ using namespace freshet;
 
 namespace {
 
-constexpr double easting = 412345.678, northing = 6543210.123;  // m, UTM: the largest coordinates that maps use
+constexpr double easting = 412345.678,
+                 northing = 6543210.123;  // m, UTM: the largest coordinates that maps use
 
 // Three particles; the second is a boundary particle.
 FieldSet three_particles(bool two_d) {

@@ -23,11 +23,33 @@ TEST_CASE("the summary holds the promised keys, errors only where the scene name
   summary.gauges[0].rmse = 0.0035;
   summary.run_ups.push_back({"valley", 0.0875, {}});
   const std::string text = json(summary);
-  for (const char* key :
-       {"case", "method", "backend", "threads", "particles", "initial", "final", "steps", "simulated_s", "wall_s",
-        "particle_steps_per_s", "mass", "initial_m3", "inflow_m3", "outflow_m3", "final_m3", "relative_error",
-        "flux_error", "gauges", "ch5", "max_abs_error", "peak", "peak_time", "measured_peak", "arrival",
-        "measured_arrival", "runup"}) {
+  for (const char* key : {"case",
+                          "method",
+                          "backend",
+                          "threads",
+                          "particles",
+                          "initial",
+                          "final",
+                          "steps",
+                          "simulated_s",
+                          "wall_s",
+                          "particle_steps_per_s",
+                          "mass",
+                          "initial_m3",
+                          "inflow_m3",
+                          "outflow_m3",
+                          "final_m3",
+                          "relative_error",
+                          "flux_error",
+                          "gauges",
+                          "ch5",
+                          "max_abs_error",
+                          "peak",
+                          "peak_time",
+                          "measured_peak",
+                          "arrival",
+                          "measured_arrival",
+                          "runup"}) {
     CAPTURE(key);
     CHECK(text.find('"' + std::string(key) + "\": ") != std::string::npos);
   }

@@ -157,12 +157,15 @@ TEST_CASE("each failure has its exit code") {
     return freshet_with(parts, {"run", scene, "--out", scratch / out}).code;
   };
   Parts data = fake_parts();
-  data.read = [](const std::string&, const std::vector<std::string>&) -> Scene { throw DataError("no such file"); };
+  data.read = [](const std::string&, const std::vector<std::string>&) -> Scene {
+    throw DataError("no such file");
+  };
   CHECK(code(data, "a") == 3);
   CHECK(code(fake_parts([](auto& m) { m.trouble = {test::Trouble::Kind::fast, 5, 1}; }), "b") == 4);
-  CHECK(code(fake_parts(), "scene.toml") == 5);        // a file where the directory should be
+  CHECK(code(fake_parts(), "scene.toml") == 5);  // a file where the directory should be
   CHECK(code(fake_parts(), "scene.toml/below") == 5);
-  const Parts broken = fake_parts([](auto& m) { m.on_step = [](long) { throw std::logic_error("two and two"); }; });
+  const Parts broken =
+      fake_parts([](auto& m) { m.on_step = [](long) { throw std::logic_error("two and two"); }; });
   CHECK(code(broken, "c") == 1);
   const Result told = freshet_with(broken, {"run", scene, "--out", scratch / "d"});
   CHECK_THAT(told.err, Contains("internal error: two and two") && Contains("please report"));
@@ -218,10 +221,11 @@ TEST_CASE("check, list, version and help") {
   const Result check = freshet_with({"check", scene_in(scratch)});
   CHECK(check.code == 0);
   // 0.3 dx = 0.015 s: 66.7 steps to 1 s.
-  CHECK_THAT(check.out, Contains("scene       fake") && Contains("particles   400") && Contains("about 67 of 0.015 s") &&
-                            Contains("flight"));
-  CHECK(freshet_with({"list"}).code == 0);
-  CHECK_THAT(freshet_with({"--version"}).out, Contains("backend") && Contains("compiler") && Contains("threads"));
+  CHECK_THAT(check.out, Contains("scene       fake") && Contains("particles   400") &&
+                            Contains("about 67 of 0.015 s") && Contains("flight"));
+  CHECK_THAT(freshet_with({"list"}).out, Contains("okushiri") && Contains("thacker"));  // run in the checkout
+  CHECK_THAT(freshet_with({"--version"}).out,
+             Contains("backend") && Contains("compiler") && Contains("threads"));
   CHECK_THAT(freshet_with({"--help"}).out, Contains("examples:") && Contains("exit codes:"));
   CHECK(freshet_with({"run", "--help"}).code == 0);
 }

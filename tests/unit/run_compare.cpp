@@ -26,7 +26,8 @@ Scene half_wet_scene(int dimension) {
 // Particles on a lattice over [0, width] (x [0, 1] in 2-D) with the given depth and h = 1.2 dx.
 Fluid lattice(int dimension, double dx, double width, double depth) {
   Fluid fluid;
-  const int columns = static_cast<int>(std::lround(width / dx)), rows = dimension == 2 ? static_cast<int>(1 / dx) : 1;
+  const int columns = static_cast<int>(std::lround(width / dx)),
+            rows = dimension == 2 ? static_cast<int>(1 / dx) : 1;
   for (int k = 0; k < columns * rows; ++k) {
     fluid.x.push_back((k % columns + 0.5) * dx);
     fluid.y.push_back(dimension == 2 ? (k / columns + 0.5) * dx : 0);

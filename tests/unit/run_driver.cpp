@@ -106,7 +106,9 @@ TEST_CASE("a collapsed time step ends the run") {
   CHECK_THROWS_WITH(driver.run(), Catch::Contains("stable time step is 0 s"));
 }
 
-TEST_CASE("a full or lost directory in the middle of a run is an input-output error and spares the last checkpoint") {
+TEST_CASE(
+    "a full or lost directory in the middle of a run is an input-output error and spares the last "
+    "checkpoint") {
   const test::Scratch scratch;
   Scene scene = test::fake_scene(1);
   scene.output.checkpoint_every = 1e-9;
@@ -131,6 +133,6 @@ TEST_CASE("progress: ten plain lines elsewhere than on a terminal") {
   std::fclose(log);
   const std::string text = read_text(scratch / "log");
   CHECK(std::count(text.begin(), text.end(), '\n') == 10);
-  CHECK(text.find("100.0 %  t 1 s") != std::string::npos);
+  CHECK(text.find("100.0 %  0:00 left  t 1 s") != std::string::npos);
   CHECK(text.find('\r') == std::string::npos);
 }

@@ -63,8 +63,9 @@ TEST_CASE("no step is shorter than half the stable one unless two events are clo
     if (events.outputs.due(clock.t)) events.outputs.advance();
     const double stable = 0.05 * (1.2 + std::sin(40 * clock.t));
     const Stride stride = events.shorten(clock, stable);
-    // ceil(q) < 2 q for q > 1: a remainder of more than one stable step is never cut below half of it. A remainder of less
-    // than one step can only follow a step that was itself the first of equal parts, with a stable step grown since.
+    // ceil(q) < 2 q for q > 1: a remainder of more than one stable step is never cut below half of it. A
+    // remainder of less than one step can only follow a step that was itself the first of equal parts, with a
+    // stable step grown since.
     if (stride.until < events.outputs.next()) CHECK(stride.dt > 0.5 * stable);
     shortest = std::min(shortest, stride.dt);
     clock.t = stride.until;

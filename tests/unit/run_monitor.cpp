@@ -40,16 +40,19 @@ TEST_CASE("the monitor is silent while all is well") {
 TEST_CASE("the monitor names what, which particle, when and the limit") {
   const int dimension = GENERATE(1, 2);
   const Scene scene = test::fake_scene(dimension);
-  const std::vector<std::pair<Kind, std::string>> troubles{{Kind::not_a_number, "u = "},
-                                                          {Kind::infinite, "depth = inf; limit: every value is finite"},
-                                                          {Kind::negative_depth, "depth = -0.001 m; limit: "},
-                                                          {Kind::fast, "limit: limits.speed = 10 m/s"},
-                                                          {Kind::lost, "left the domain; limit: "}};
+  const std::vector<std::pair<Kind, std::string>> troubles{
+      {Kind::not_a_number, "u = "},
+      {Kind::infinite, "depth = inf; limit: every value is finite"},
+      {Kind::negative_depth, "depth = -0.001 m; limit: "},
+      {Kind::fast, "limit: limits.speed = 10 m/s"},
+      {Kind::lost, "left the domain; limit: "}};
   for (const auto& [kind, what] : troubles) {
     CHECK_THROWS_AS(run(scene, kind), Diverged);
-    CHECK_THROWS_WITH(run(scene, kind), Contains("particle 5 at x = ") && Contains("t = 0.03 s, step 3:") && Contains(what));
+    CHECK_THROWS_WITH(run(scene, kind),
+                      Contains("particle 5 at x = ") && Contains("t = 0.03 s, step 3:") && Contains(what));
   }
-  CHECK_THROWS_WITH(run(scene, Kind::leak), Contains("mass balance") && Contains("limits.mass_error = 1e-06"));
+  CHECK_THROWS_WITH(run(scene, Kind::leak),
+                    Contains("mass balance") && Contains("limits.mass_error = 1e-06"));
 }
 
 TEST_CASE("of several troubled particles the lowest id is named, wherever it lies in memory") {
@@ -88,7 +91,8 @@ TEST_CASE("a field that no pass reads yet is looked at when output is due") {
 TEST_CASE("a time step that does not advance is a divergence") {
   const Monitor monitor(test::fake_scene());
   CHECK_NOTHROW(monitor.check_dt(1e-9, {1.0, 5}));
-  for (const double dt : {0.0, -1.0, 1e-20, std::nan("")}) CHECK_THROWS_AS(monitor.check_dt(dt, {1.0, 5}), Diverged);
+  for (const double dt : {0.0, -1.0, 1e-20, std::nan("")})
+    CHECK_THROWS_AS(monitor.check_dt(dt, {1.0, 5}), Diverged);
 }
 
 TEST_CASE("the mass error counts what came in and went out") {

@@ -52,7 +52,8 @@ TEST_CASE("gauge values lie on the line between the steps around their time") {
   const Scene scene = gauge_scene();
   Rising method(scene);
   GaugeRecorder gauges(scene, scratch / "gauges.csv");
-  run(method, gauges, {0.03, 0.07, 0.1, 0.37, 0.99, 1.0});  // steps shorter and longer than the interval of 0.1 s
+  run(method, gauges,
+      {0.03, 0.07, 0.1, 0.37, 0.99, 1.0});  // steps shorter and longer than the interval of 0.1 s
   REQUIRE(gauges.rows().size() == 11);
   for (const auto& row : gauges.rows()) {
     // Exact but for rounding of numbers of the order of 1: a few 2^-53.
@@ -76,7 +77,7 @@ TEST_CASE("a dry gauge shows the bed and is marked") {
   const Scene scene = gauge_scene();
   Rising method(scene);
   const bool thin = GENERATE(true, false);
-  method.reached = thin;                            // else no particle is near, whatever depth is reported
+  method.reached = thin;  // else no particle is near, whatever depth is reported
   method.depth_at_start = thin ? 0.9 * dry_depth : 1;
   method.rate = 0;
   GaugeRecorder gauges(scene, scratch / "gauges.csv");
@@ -104,7 +105,8 @@ TEST_CASE("run-ups keep the highest bed that was wet") {
   RunUpRecorder run_ups(scene.run_ups);
   CHECK(run_ups.highest()[0] == -1e300);
   run_ups.record(method);
-  // Bed 0.1 x; of the particles at 0.025 + 0.05 k the highest within 0.1 m of x = 0.9 is at 0.975, all are deep enough.
+  // Bed 0.1 x; of the particles at 0.025 + 0.05 k the highest within 0.1 m of x = 0.9 is at 0.975, all are
+  // deep enough.
   CHECK(run_ups.highest()[0] == Approx(0.0975).epsilon(1e-14));
   const double before = run_ups.highest()[0];
   const auto depth = method.fields().real("depth");

@@ -1,0 +1,122 @@
+// What the equations keep, the method keeps: mass, momentum, energy, rest.
+#include <catch2/catch.hpp>
+
+#include "tests/support/scenes.hpp"
+
+using namespace freshet;
+using test::Flow;
+
+namespace {
+
+constexpr double g = 9.81;  // m/s2
+
+// A turning, stretching drop on a flat bed that spreads freely.
+Scene free_drop() {
+  Scene scene = test::bare_scene(2, {-1, -1}, {1, 1}, 0.05);
+  scene.water.depth = [](double x, double y) { return 0.5 - x * x - 0.7 * y * y; };
+  scene.water.wet_above = 0.02;
+  scene.water.velocity = {[](double x, double y) { return 0.4 + 0.3 * x - y; }, [](double x, double y) { return -0.1 + x + 0.2 * y; }};
+  return scene;
+}
+
+double momentum(const Flow& flow, const char* component) {
+  const auto m = flow.real("mass"), v = flow.real(component);
+  return test::sum(flow, [&](int i) { return m(i) * v(i); });
+}
+double momentum_size(const Flow& flow) {
+  const auto m = flow.real("mass"), u = flow.real("u");
+  return test::sum(flow, [&](int i) { return m(i) * std::abs(u(i)); });
+}
+double angular_momentum(const Flow& flow) {
+  const auto m = flow.real("mass"), x = flow.real("x"), y = flow.real("y"), u = flow.real("u"), v = flow.real("v");
+  return test::sum(flow, [&](int i) { return m(i) * (x(i) * v(i) - y(i) * u(i)); });
+}
+
+}  // namespace
+
+TEST_CASE("conservation: mass exactly, momentum and angular momentum of a free drop to round-off") {
+  Scene scene = free_drop();
+  scene.sph.stabilisation =
+      GENERATE(Stabilisation::none, Stabilisation::lax_friedrichs, Stabilisation::lax_friedrichs_muscl);
+  Flow flow(scene);
+  const auto mass = flow.by_id("mass");
+  const double px = momentum(flow, "u"), py = momentum(flow, "v"), turn = angular_momentum(flow);
+  flow.many_steps(150);
+  CHECK((flow.by_id("mass") == mass));
+  CHECK(flow.method->totals().mass == Approx(std::accumulate(mass.begin(), mass.end(), 0.0)).epsilon(1e-14));
+  // Pairs cancel to one rounding each: 150 steps x 1e-16 x the sum of the pair forces' impulses, some ten times m v.
+  CHECK(std::abs(momentum(flow, "u") - px) < 1e-12 * momentum_size(flow));
+  CHECK(std::abs(momentum(flow, "v") - py) < 1e-12 * momentum_size(flow));
+  CHECK(std::abs(angular_momentum(flow) - turn) < 1e-12 * std::abs(turn));
+  CHECK(flow.largest("x") > 1.0);  // it did spread
+}
+
+namespace {
+
+// A drop that sloshes in a bowl, without stabilisation: classical acceleration, E = sum m (v^2/2 + g d/2 + g b).
+Scene slosh() {
+  Scene scene = test::bare_scene(2, {-2, -2}, {2, 2}, 0.1);
+  scene.bed.elevation = [](double x, double y) { return 0.1 * (x * x + y * y); };
+  scene.water.surface = [](double x, double) { return 0.08 + 0.02 * x; };
+  scene.water.wet_above = 0.005;
+  scene.sph.stabilisation = Stabilisation::none;
+  scene.sph.acceleration = Acceleration::classical;
+  scene.sph.newton_tolerance = 1e-12;
+  return scene;
+}
+
+struct Energy {
+  double kinetic, total;  // J per density of water
+};
+Energy energy(const Flow& flow) {
+  const auto m = flow.real("mass"), u = flow.real("u"), v = flow.real("v"), d = flow.real("depth"), b = flow.real("bed");
+  const double kinetic = test::sum(flow, [&](int i) { return 0.5 * m(i) * (u(i) * u(i) + v(i) * v(i)); });
+  return {kinetic, kinetic + test::sum(flow, [&](int i) { return g * m(i) * (0.5 * d(i) + b(i)); })};
+}
+
+// Largest deviation of the energy over 2 s in units of the largest kinetic energy.
+double energy_error(double dt) {
+  Flow flow(slosh());
+  const double start = energy(flow).total;
+  double worst = 0, kinetic = 0;
+  for (int n = 0; n < std::lround(2 / dt); ++n) {
+    flow.step(dt);
+    const Energy now = energy(flow);
+    worst = std::max(worst, std::abs(now.total - start));
+    kinetic = std::max(kinetic, now.kinetic);
+  }
+  return worst / kinetic;
+}
+
+}  // namespace
+
+TEST_CASE("conservation: the energy of an inviscid slosh, to the second order of the integrator") {
+  const double stable = Flow(slosh()).method->stable_dt();
+  const double dt = 2 / std::ceil(2 / stable);
+  const double coarse = energy_error(dt), fine = energy_error(dt / 2), finer = energy_error(dt / 4);
+  WARN(coarse << " " << fine << " " << finer);
+  CHECK(coarse < 1e-2);
+  CHECK(coarse / fine > 2.5);
+  CHECK(fine / finer > 2.5);
+}
+
+namespace {
+
+// Still water over a hump between walls, in a basin whose sides are no multiple of the hump's shape.
+Scene lake() {
+  Scene scene = test::bare_scene(2, {0, 0}, {1.2, 0.8}, 0.04);
+  scene.bed.elevation = [](double x, double y) { return 0.1 * std::exp(-20 * ((x - 0.5) * (x - 0.5) + (y - 0.45) * (y - 0.45))); };
+  scene.water.surface = [](double, double) { return 0.5; };
+  test::close_box(scene);
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("conservation: a lake at rest in a walled basin stays nearly at rest") {
+  Flow flow(lake());
+  double fastest = 0;
+  flow.run(2, [&] { fastest = std::max(fastest, flow.largest_speed()); });
+  WARN(fastest / std::sqrt(g * 0.5));
+  CHECK(fastest < 1e-2 * std::sqrt(g * 0.5));
+}

@@ -1,0 +1,249 @@
+// Clouds of particles for tests of cellgrid and the kernels, made without a scene: points and random numbers, sorted field
+// sets, and a Cloud that is sorted, listed, walled and solved as a step does it. Results are read back by particle id.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "kernels/swe/density.hpp"
+#include "kernels/swe/internal_force.hpp"
+
+namespace freshet::test {
+
+using Point = std::array<double, 2>;  // m; y = 0 in 1-D
+using Polyline = std::vector<Point>;
+
+// The same uniform numbers with every standard library.
+class Random {
+ public:
+  explicit Random(unsigned seed) : engine_(seed) {}
+  double operator()(double low, double high) { return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53; }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+template <class T>
+std::vector<T> shuffled(std::vector<T> values, unsigned seed) {
+  Random random(seed);
+  for (std::size_t k = values.size(); k > 1; --k)
+    std::swap(values[k - 1], values[static_cast<std::size_t>(random(0, static_cast<double>(k)))]);
+  return values;
+}
+
+inline std::vector<int> numbers(int n) {
+  std::vector<int> ids(static_cast<std::size_t>(n));
+  std::iota(ids.begin(), ids.end(), 0);
+  return ids;
+}
+
+// n points in the square (1-D: the interval) from -half to half around a centre.
+inline std::vector<Point> random_points(int dimension, int n, double half, unsigned seed, Point centre = {0, 0}) {
+  Random random(seed);
+  std::vector<Point> points(static_cast<std::size_t>(n));
+  for (Point& p : points) {
+    p[0] = centre[0] + random(-half, half);
+    p[1] = dimension == 2 ? centre[1] + random(-half, half) : 0;
+  }
+  return points;
+}
+
+// Centres (i + 1/2, j + 1/2) dx for i0 <= i < i1, j0 <= j < j1; 1-D: one row on y = 0.
+struct Block {
+  int i0, i1, j0, j1;
+};
+inline std::vector<Point> lattice(int dimension, const Block& b, double dx) {
+  std::vector<Point> points;
+  for (int j = b.j0; j < (dimension == 2 ? b.j1 : b.j0 + 1); ++j)
+    for (int i = b.i0; i < b.i1; ++i) points.push_back({(i + 0.5) * dx, dimension == 2 ? (j + 0.5) * dx : 0.0});
+  return points;
+}
+
+// x, (y), h and id of points, unsorted. ids: empty = in order.
+inline FieldSet point_fields(int dimension, const std::vector<Point>& points, std::vector<int> ids = {}) {
+  if (ids.empty()) ids = numbers(static_cast<int>(points.size()));
+  FieldSet f(static_cast<int>(points.size()));
+  const auto x = f.real("x", "m", Carry::sort), h = f.real("h", "m", Carry::sort);
+  const auto y = dimension == 2 ? f.real("y", "m", Carry::sort) : Field<double>();
+  const auto id = f.integer("id", "1", Carry::sort);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    x(i) = points[i][0];
+    if (dimension == 2) y(i) = points[i][1];
+    id(i) = ids[i];
+  }
+  return f;
+}
+
+template <int D>
+VecField<double, D> vector_field(const FieldSet& f, const char* x, const char* y) {
+  if constexpr (D == 1)
+    return {f.real(x)};
+  else
+    return {f.real(x), f.real(y)};
+}
+
+template <int D>
+Vec<double, D> vec(const Point& p) {
+  Vec<double, D> v;
+  v.x = p[0];
+  if constexpr (D == 2) v.y = p[1];
+  return v;
+}
+
+// A particle as a test describes it; rho is the first guess of the depth, kh = rho0 h0^D the constant of rho h^D.
+struct Grain {
+  Point x, v{0, 0};
+  double m, rho0, h0;
+  double rho = rho0;
+};
+
+// n grains of about rho0 dx^D at random places, with masses within a factor of three and random velocities.
+inline std::vector<Grain> random_water(int dimension, int n, double dx, unsigned seed) {
+  const double half = 0.5 * dx * (dimension == 2 ? std::sqrt(n) : n);
+  Random random(seed + 1000);
+  std::vector<Grain> grains;
+  for (const Point& p : random_points(dimension, n, half, seed)) {
+    const double rho0 = 0.7 * random(0.5, 1.5), area = dimension == 2 ? dx * dx : dx;
+    grains.push_back({p, {random(-1, 1), dimension == 2 ? random(-1, 1) : 0}, rho0 * area, rho0, 1.2 * dx});
+  }
+  return grains;
+}
+
+// A lattice of depth rho0, h = eta dx.
+inline std::vector<Grain> still_water(int dimension, const std::vector<Point>& points, double dx, double rho0, double eta) {
+  std::vector<Grain> grains;
+  for (const Point& p : points) grains.push_back({p, {0, 0}, rho0 * (dimension == 2 ? dx * dx : dx), rho0, eta * dx});
+  return grains;
+}
+
+// What is compared is the equations, not where the iteration stops, nor a list that is too short: a margin of 4 covers the
+// way from the floor of h to its cap.
+inline swe::DensityOptions tight(int dimension) {
+  return {9.81, 1e-13, 4.0, {std::pow(1.6, -1.0 / dimension), 3.0}, true, 0.0};
+}
+
+template <int D>
+class Cloud {
+ public:
+  FieldSet fields;
+  RowOrder order;
+  ClusterSet clusters;
+  NeighbourList neighbours;
+  std::optional<Walls<D>> walls;
+  int lists = 0;  // made by the last solve()
+
+  Cloud(const std::vector<Grain>& grains, double spacing)
+      : fields(static_cast<int>(grains.size())), order(D, spacing), spacing_(spacing) {
+    make_fields();
+    const swe::Particles<D> p = bind();
+    for (std::size_t k = 0; k < grains.size(); ++k) set(p, static_cast<int>(k), grains[k]);
+  }
+
+  void add_walls(const std::vector<Polyline>& lines, const Point& inside) { walls.emplace(lines, spacing_, inside); }
+
+  swe::Particles<D> bind() const {
+    swe::Particles<D> p;
+    p.x = vector_field<D>(fields, "x", "y");
+    p.v = vector_field<D>(fields, "u", "v");
+    p.v_pred = vector_field<D>(fields, "u_pred", "v_pred");
+    p.a = vector_field<D>(fields, "ax", "ay");
+    p.t = vector_field<D>(fields, "tx", "ty");
+    p.m = fields.real("mass"), p.h0 = fields.real("h0"), p.kh = fields.real("kh"), p.rho = fields.real("depth");
+    p.rate = fields.real("depth_rate"), p.growth = fields.real("depth_growth"), p.h = fields.real("h"), p.inv_h = fields.real("inv_h");
+    p.pressure = fields.real("pressure"), p.celerity = fields.real("celerity"), p.weight = fields.real("weight");
+    p.signal = fields.real("signal"), p.id = fields.integer("id");
+    if constexpr (D == 1)
+      p.strain = {fields.real("strain_xx")};
+    else
+      p.strain = {fields.real("strain_xx"), fields.real("strain_xy"), fields.real("strain_yy")};
+    return p;
+  }
+
+  WallView<D> wall_view() const { return walls ? walls->view() : WallView<D>{}; }
+
+  // Sorted, listed by the depths at hand, density solved; lists are made again as long as an h outgrows them.
+  swe::DensityReport solve(const swe::DensityOptions& options) {
+    order.sort(fields);
+    clusters.cut(order.rows());
+    const swe::Particles<D> p = bind();
+    for (int i = 0; i < fields.size(); ++i)
+      p.h(i) = clamp(swe::smoothing_length<D>(p.kh(i), p.rho(i)), options.bounds.floor * p.h0(i), options.bounds.cap * p.h0(i));
+    for (lists = 1;; ++lists) {
+      list(options.margin);
+      const auto report = swe::solve_density<D>(clusters, neighbours.view(), wall_view(), p, {}, options);
+      if (report.outgrown == 0 || lists == 40) return report;
+    }
+  }
+
+  // Twice: the rate and the strain belong to the h that the iteration starts from.
+  void settle(const swe::DensityOptions& options) {
+    solve(options);
+    solve(options);
+  }
+
+  void force(const swe::AnyStabilisation& stabilise) {
+    swe::internal_force<D>(clusters, neighbours.view(), wall_view(), bind(), stabilise);
+  }
+
+  // The field's values in the order of the ids.
+  std::vector<double> by_id(const char* name) const {
+    std::vector<double> values(static_cast<std::size_t>(fields.size()));
+    const auto field = fields.real(name);
+    const auto id = fields.integer("id");
+    for (int i = 0; i < fields.size(); ++i) values[static_cast<std::size_t>(id(i))] = field(i);
+    return values;
+  }
+  double of(int id, const char* name) const { return by_id(name)[static_cast<std::size_t>(id)]; }
+
+ private:
+  void make_fields() {
+    for (const char* name : {"x", "y", "u", "v", "u_pred", "v_pred", "mass", "h0", "kh", "depth", "h"})
+      fields.real(name, "1", Carry::sort);
+    for (const char* name : {"ax", "ay", "tx", "ty", "depth_rate", "depth_growth", "inv_h", "pressure", "celerity", "weight", "signal",
+                             "strain_xx", "strain_xy", "strain_yy"})
+      fields.real(name, "1", Carry::no);
+    fields.integer("id", "1", Carry::sort);
+  }
+
+  static void set(const swe::Particles<D>& p, int i, const Grain& g) {
+    put(p.x, i, vec<D>(g.x));
+    put(p.v, i, vec<D>(g.v));
+    put(p.v_pred, i, vec<D>(g.v));
+    p.m(i) = g.m, p.h0(i) = g.h0, p.rho(i) = g.rho;
+    p.kh(i) = g.rho0 * power<D>(g.h0);
+    p.id(i) = i;
+  }
+
+  void list(double margin) {
+    const swe::Particles<D> p = bind();
+    order.measure_reach(fields, p.h, swe::Kernel<D>::support * (1 + margin));
+    neighbours.build<D>(clusters, {p.x, p.h, order.rows(), p.x, p.h, swe::Kernel<D>::support, margin});
+    if (walls) walls->find(clusters, p.x, p.h, margin);
+  }
+
+  double spacing_;
+};
+
+// The cubic spline as SWE-FORMULAS prints it, piece by piece, against the branch-free form of the kernels.
+inline double printed_norm(int dimension) { return dimension == 1 ? 1.0 : 15.0 / (7.0 * std::acos(-1.0)); }
+inline double printed_w(int dimension, double q) {
+  if (q >= 2) return 0;
+  return printed_norm(dimension) * (q <= 1 ? 2.0 / 3 - q * q + 0.5 * q * q * q : std::pow(2 - q, 3) / 6);
+}
+inline double printed_dw(int dimension, double q) {
+  if (q >= 2) return 0;
+  return printed_norm(dimension) * (q <= 1 ? -2 * q + 1.5 * q * q : -0.5 * (2 - q) * (2 - q));
+}
+
+inline double largest_size(const std::vector<double>& values) {
+  double largest = 0;
+  for (const double v : values) largest = std::max(largest, std::abs(v));
+  return largest;
+}
+
+}  // namespace freshet::test

@@ -1,0 +1,114 @@
+// Scenes made in C++, and short runs of the real method on them without files or a run loop.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <numeric>
+#include <vector>
+
+#include "src/method.hpp"
+
+namespace freshet::test {
+
+// Flat, frictionless, without walls; water as the caller sets it.
+inline Scene bare_scene(int dimension, const freshet::Point& low, const freshet::Point& high, double spacing) {
+  Scene scene;
+  scene.name = "test";
+  scene.domain = {dimension, low, high};
+  scene.water.spacing = spacing;
+  scene.sph.eta = dimension == 1 ? 1.0 : 1.2;
+  scene.sph.h_floor = std::pow(1.6, -1.0 / dimension);
+  scene.end_time = 1e9;
+  return scene;
+}
+
+// Walls on all sides of the domain.
+inline void close_box(Scene& scene) {
+  const auto [x0, y0] = scene.domain.low;
+  const auto [x1, y1] = scene.domain.high;
+  if (scene.domain.dimension == 1)
+    scene.walls = {Wall{{{x0, 0}}}, Wall{{{x1, 0}}}};
+  else
+    scene.walls = {Wall{{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}, {x0, y0}}}};
+}
+
+// Open on the left, walls elsewhere.
+inline void open_left(Scene& scene, OpenBoundary::Kind kind, const Series& level) {
+  const auto [x0, y0] = scene.domain.low;
+  const auto [x1, y1] = scene.domain.high;
+  const bool plane = scene.domain.dimension == 2;
+  OpenBoundary boundary;
+  boundary.name = "left";
+  boundary.line = plane ? std::array<freshet::Point, 2>{{{x0, y1}, {x0, y0}}} : std::array<freshet::Point, 2>{{{x0, 1}, {x0, 0}}};
+  boundary.kind = kind;
+  boundary.level = level;
+  scene.boundaries = {boundary};
+  scene.walls = {plane ? Wall{{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}} : Wall{{{x1, 0}}}};
+}
+
+// A method and its clock. The tests' execution spaces share the host's memory.
+struct Flow {
+  std::unique_ptr<Method> method;
+  double t = 0;
+  long steps = 0;
+
+  explicit Flow(const Scene& scene) : method(make_method(scene)) {}
+
+  void step(double dt) {
+    method->step(t, dt);
+    t += dt;
+    ++steps;
+  }
+  void many_steps(int count) {
+    for (int n = 0; n < count; ++n) step(method->stable_dt());
+  }
+  // To t = end exactly; each(*this) after every step.
+  void run(double end, const std::function<void()>& each = [] {}) {
+    while (t < end) {
+      step(std::min(method->stable_dt(), end - t));
+      each();
+    }
+  }
+
+  int size() const { return method->fields().size(); }
+  Field<double> real(const char* name) const { return std::as_const(*method).fields().real(name); }
+  // Values in the order of the ids (which must be 0 ... size - 1, as they are without open boundaries).
+  std::vector<double> by_id(const char* name) const {
+    const auto field = real(name);
+    const auto id = std::as_const(*method).fields().integer("id");
+    std::vector<double> values(static_cast<std::size_t>(size()));
+    for (int i = 0; i < size(); ++i) values.at(static_cast<std::size_t>(id(i))) = field(i);
+    return values;
+  }
+  double largest(const char* name) const {
+    double most = 0;
+    for (int i = 0; i < size(); ++i) most = std::max(most, std::abs(real(name)(i)));
+    return most;
+  }
+  double largest_speed() const {
+    const auto u = real("u"), v = method->dimension() == 2 ? real("v") : u;
+    double most = 0;
+    for (int i = 0; i < size(); ++i) most = std::max(most, method->dimension() == 2 ? std::hypot(u(i), v(i)) : std::abs(u(i)));
+    return most;
+  }
+};
+
+// sum of value(i)
+template <class Value>
+double sum(const Flow& flow, const Value& value) {
+  double total = 0;
+  for (int i = 0; i < flow.size(); ++i) total += value(i);
+  return total;
+}
+
+inline double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double most = a.size() == b.size() ? 0 : 1e300;
+  for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k) {
+    const double difference = std::abs(a[k] - b[k]);
+    most = difference <= most ? most : difference;  // keeps a NaN
+  }
+  return most;
+}
+
+}  // namespace freshet::test
