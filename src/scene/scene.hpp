@@ -93,7 +93,6 @@ struct Compare {
   std::shared_ptr<const Exact> exact;
   double threshold = 1e-3;             // m, depth_l1_rel counts where the exact depth is above it
   std::optional<double> grid_spacing;  // m, of the regular grid of grid_l2_rel (default: 1/200 of the domain)
-  std::optional<std::array<Point, 2>> region;  // low and high corner [m]: particles outside do not count
   int samples = 1;                     // depth_l1_rel is the median over this many times ...
   double window = 0;                   // s, ... evenly spread over the last `window` seconds before the end
   std::string description;             // "stoker: 10 m | 5 m, dam at 1000 m": for the read-back

@@ -94,29 +94,64 @@ TEST_CASE("conservation: the energy of an inviscid slosh, to the second order of
   const double stable = Flow(slosh()).method->stable_dt();
   const double dt = 2 / std::ceil(2 / stable);
   const double coarse = energy_error(dt), fine = energy_error(dt / 2), finer = energy_error(dt / 4);
-  WARN(coarse << " " << fine << " " << finer);
-  CHECK(coarse < 1e-2);
-  CHECK(coarse / fine > 2.5);
-  CHECK(fine / finer > 2.5);
+  CHECK(coarse < 5e-3);  // the sheet, section 5: 3e-4 at CFL 0.4 in 1-D; here shoreline particles pass the bounds of h
+  CHECK(coarse / fine == Approx(4).margin(0.8));
+  CHECK(fine / finer == Approx(4).margin(0.8));
 }
 
 namespace {
 
-// Still water over a hump between walls, in a basin whose sides are no multiple of the hump's shape.
-Scene lake() {
-  Scene scene = test::bare_scene(2, {0, 0}, {1.2, 0.8}, 0.04);
-  scene.bed.elevation = [](double x, double y) { return 0.1 * std::exp(-20 * ((x - 0.5) * (x - 0.5) + (y - 0.45) * (y - 0.45))); };
+Scene lake(int dimension, double hump) {
+  Scene scene = test::bare_scene(dimension, {0, 0}, {1.2, dimension == 2 ? 0.8 : 0.0}, 0.04);
+  scene.bed.elevation = [=](double x, double y) {
+    const double r2 = (x - 0.5) * (x - 0.5) + (dimension == 2 ? (y - 0.45) * (y - 0.45) : 0.0);
+    return hump * std::exp(-20 * r2);
+  };
   scene.water.surface = [](double, double) { return 0.5; };
   test::close_box(scene);
   return scene;
 }
 
-}  // namespace
-
-TEST_CASE("conservation: a lake at rest in a walled basin stays nearly at rest") {
-  Flow flow(lake());
+// Largest speed over 2 s, some six times a wave's way through the basin, in units of sqrt(g d).
+double restlessness(const Scene& scene) {
+  Flow flow(scene);
   double fastest = 0;
   flow.run(2, [&] { fastest = std::max(fastest, flow.largest_speed()); });
-  WARN(fastest / std::sqrt(g * 0.5));
-  CHECK(fastest < 1e-2 * std::sqrt(g * 0.5));
+  return fastest / std::sqrt(g * 0.5);
+}
+
+}  // namespace
+
+TEST_CASE("conservation: a lake at rest between two walls stays nearly at rest") {
+  CHECK(restlessness(lake(1, 0)) < 1e-12);    // eta 1: the lattice is an exact equilibrium, walls included
+  CHECK(restlessness(lake(1, 0.1)) < 4e-3);   // the acceptance of cases/lake_at_rest
+}
+
+TEST_CASE("conservation: a lake at rest in a walled basin stays nearly at rest") {
+  CHECK(restlessness(lake(2, 0)) < 1e-2);    // Vacondio 2010, 1.4: below 0.01
+  CHECK(restlessness(lake(2, 0.1)) < 1e-2);
+}
+
+TEST_CASE("conservation: a pond of one cell beside a lake is an isolated particle from the start") {
+  const int dimension = GENERATE(1, 2);
+  CAPTURE(dimension);
+  Scene scene = test::bare_scene(dimension, {0, 0}, {2, dimension == 2 ? 1.0 : 0.0}, 0.05);
+  scene.water.depth = [=](double x, double y) {
+    const bool pond = std::abs(x - 1.625) < 0.01 && (dimension == 1 || std::abs(y - 0.525) < 0.01);
+    return x < 1 ? 0.3 : pond ? 0.2 : 0.0;
+  };
+  scene.sph.newton_tolerance = 1e-12;
+  Flow flow(scene);
+  int found = 0;
+  for (int i = 0; i < flow.size(); ++i) {
+    if (flow.real("x")(i) < 1.5) continue;
+    ++found;
+    const double cap = 3 * scene.sph.eta * 0.05, norm = dimension == 1 ? 2.0 / 3 : 10 / (7 * std::acos(-1.0));
+    CHECK(flow.real("h")(i) == Approx(cap).epsilon(1e-12));
+    CHECK(flow.real("depth")(i) == Approx(flow.real("mass")(i) * norm / std::pow(cap, dimension)).epsilon(1e-11));
+    CHECK(flow.real("ax")(i) == 0);
+  }
+  CHECK(found == 1);
+  flow.many_steps(20);
+  CHECK(std::isfinite(test::sum(flow, [&](int i) { return flow.real("x")(i) + flow.real("u")(i) + flow.real("depth")(i); })));
 }

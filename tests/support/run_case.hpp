@@ -1,0 +1,40 @@
+// Runs one of the scenes in cases/ to its end, as the program does, and returns its summary.
+#pragma once
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "build_info.hpp"
+#include "src/method.hpp"
+#include "src/run/driver.hpp"
+#include "src/scene/read.hpp"
+#include "tests/support/scratch.hpp"
+
+namespace freshet::test {
+
+inline Scene read_case(const std::string& name, const std::vector<std::string>& overrides = {}) {
+  return read_scene(std::string(build::source_dir) + "/cases/" + name + ".toml", overrides);
+}
+
+inline Summary run_case(const std::string& name, const std::vector<std::string>& overrides = {}) {
+  const Scratch scratch;
+  const Scene scene = read_case(name, overrides);
+  const auto method = make_method(scene);
+  RunOptions options;
+  options.directory = scratch.path();
+  Driver driver(scene, *method, options);
+  driver.begin();
+  driver.run();
+  return driver.summary();
+}
+
+// Whether the Okushiri benchmark's files are where a scene would find them.
+inline bool has_okushiri_data() {
+  const char* folder = std::getenv("FRESHET_DATA");
+  const std::string file = "/okushiri/anuga/Benchmark_2_Bathymetry.asc";
+  return (folder && std::filesystem::exists(folder + file)) ||
+         std::filesystem::exists(std::string(build::source_dir) + "/data" + file);
+}
+
+}  // namespace freshet::test
