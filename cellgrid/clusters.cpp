@@ -5,7 +5,7 @@
 namespace freshet {
 
 void ClusterSet::cut(const Rows& rows) {
-  if (row_start_.extent_int(0) < rows.rows + 1) row_start_ = Field<int>("cellgrid.row_start", static_cast<size_t>(rows.rows + 1));
+  if (row_start_.extent_int(0) < rows.rows + 1) row_start_ = Field<int>("cellgrid.row_start", static_cast<size_t>(2 * rows.rows + 16));
   const Field<int> row_start = row_start_;
   const Rows r = rows;
   Kokkos::parallel_scan("cellgrid::count_clusters", Range(0, rows.rows + 1), KOKKOS_LAMBDA(int row, int& sum, bool last) {

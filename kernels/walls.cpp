@@ -108,6 +108,19 @@ void fill(const Field<T>& field, const std::vector<WallPoint>& points, const F& 
 
 }  // namespace
 
+bool only_right_corners(const std::vector<Line>& lines) {
+  for (const Line& line : lines) {
+    const bool closed = line.size() > 2 && line.front() == line.back();
+    for (size_t k = 0; k + 2 < line.size() + closed; ++k) {
+      const WallSegment s = segment_between(line[k], line[k + 1]);
+      const WallSegment t = k + 2 < line.size() ? segment_between(line[k + 1], line[k + 2]) : segment_between(line[0], line[1]);
+      const double turn = s.tangent[0] * t.tangent[1] - s.tangent[1] * t.tangent[0];
+      if (std::abs(turn - 1) > 1e-6) return false;
+    }
+  }
+  return true;
+}
+
 template <int D>
 Walls<D>::Walls(const std::vector<Line>& lines, WallKind kind, double spacing, const std::array<double, 2>& inside)
     : order_(D, spacing), near_(32), kind_(kind), depth_(2 * spacing) {

@@ -135,6 +135,9 @@ KOKKOS_INLINE_FUNCTION void add_wall(const Vec<V, D>& to_wall, const Vec<V, D>& 
   }
 }
 
+// Whether mirror images are exact for these polylines: every corner is a right one with the water inside.
+bool only_right_corners(const std::vector<std::vector<std::array<double, 2>>>& lines);
+
 // Points, projectors and segments of a scene's walls; the list of points near each cluster.
 template <int D>
 class Walls {
@@ -154,6 +157,7 @@ class Walls {
 
   WallView<D> view() const;
   int points() const { return points_.size(); }
+  WallKind kind() const { return kind_; }
 
  private:
   FieldSet points_;

@@ -148,8 +148,10 @@ struct SolveDensity {
       bounded = select((wanted < low) | (high < wanted), Lane(1.0), Lane(0.0));
       alpha = moment / (rho * double(D));
       const Lane slope = rho - total + rho * alpha;
+      // Held by the list like by a bound: then it ends as outgrown, and the list is made again.
+      const Lane held = select(smaller(high, longest_listed) < wanted, Lane(1.0), bounded);
       const Lane newton = select(Lane(0.0) < slope, rho * alpha / larger(slope, Lane(1e-300)), Lane(2.0));
-      const Lane factor = select(Lane(0.5) < bounded, total / rho, newton);
+      const Lane factor = select(Lane(0.5) < held, total / rho, newton);
       const Lane residual = free * larger(rho - total, total - rho) / rho;
       rho = select(Lane(0.5) < imposed, imposed_rho, rho * clamp(factor, Lane(0.5), Lane(2.0)));
       if (!any(Lane(options.tolerance) < residual) || n == most_evaluations) break;

@@ -56,7 +56,11 @@ bool read_sph(Table& section, Scene& scene) {
   // What a density 1.6 times the initial one gives.
   sph.h_floor = section.number("h_floor").within(0, 1).otherwise(std::pow(1.6, -1.0 / scene.domain.dimension));
   sph.h_cap = section.number("h_cap").at_least(1).otherwise(sph.h_cap);
-  sph.mirror_walls = section.choice<bool>("walls", {{"mvbp", false}, {"mirror", true}}).otherwise(sph.mirror_walls);
+  sph.walls = section
+                  .choice<Walling>("walls", {{"automatic", Walling::automatic},
+                                             {"mvbp", Walling::mvbp},
+                                             {"mirror", Walling::mirror}})
+                  .otherwise(sph.walls);
   const auto acceleration =
       section
           .choice<Acceleration>("acceleration", {{"classical", Acceleration::classical},

@@ -76,6 +76,8 @@ struct RunUp {
 };
 
 enum class Stabilisation { none, lax_friedrichs, lax_friedrichs_muscl };
+// automatic: mirror images where every corner of the walls is a right one with the water inside, else MVBP.
+enum class Walling { automatic, mvbp, mirror };
 enum class Acceleration { classical, variational };
 
 struct Sph {
@@ -86,7 +88,7 @@ struct Sph {
   double newton_tolerance = 1e-5;  // of the relative density residual
   double h_floor = 0.8;            // x h0; the reader's default is 1.6^(-1/D): what a density 1.6 times the initial one gives
   double h_cap = 3.0;              // x h0
-  bool mirror_walls = false;       // walls by mirror images instead of MVBP
+  Walling walls = Walling::automatic;
 };
 
 struct Compare {

@@ -90,7 +90,9 @@ std::vector<std::string> Solver<D>::features() const {
   if (stabilise_.index() != 0) names.push_back("Lax-Friedrichs");
   if (bed_) names.push_back(bed_->variational ? "bed, variational acceleration" : "bed, classical acceleration");
   if (friction_) names.push_back("Manning friction");
-  if (walls_) names.push_back("walls (MVBP), " + std::to_string(walls_->points()) + " points");
+  if (walls_)
+    names.push_back(std::string(walls_->kind() == WallKind::mirror ? "walls (mirror images), " : "walls (MVBP), ") +
+                    std::to_string(walls_->points()) + " points");
   if (!boundaries_.empty()) names.push_back("open boundaries: " + std::to_string(boundaries_.size()));
   return names;
 }
@@ -111,8 +113,7 @@ void Solver<D>::restore(const ScalarState& state) {
   for (size_t k = 0; k < boundaries_.size(); ++k) boundaries_[k].restore(state.at("boundary." + std::to_string(k)));
   const Particles<D> p = bind();
   Kokkos::parallel_for("swe::restore", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) { p.inv_h(i) = 1.0 / p.h(i); });
-  order_.sort(particles_);
-  order_.measure_reach(particles_, bind().h, Kernel<D>::support * (1 + list_margin));
+  find_neighbours();  // the saved order is sorted already; gauges and walls ask for rows and lists before the next step
 }
 
 template class Solver<1>;

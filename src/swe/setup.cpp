@@ -78,7 +78,9 @@ void Solver<D>::build_walls() {
     if (D == 2) extend_past(lines.back(), scene_.boundaries, scene_.water.spacing);
   }
   const Point middle{0.5 * (scene_.domain.low[0] + scene_.domain.high[0]), 0.5 * (scene_.domain.low[1] + scene_.domain.high[1])};
-  walls_.emplace(lines, scene_.sph.mirror_walls ? WallKind::mirror : WallKind::mvbp, scene_.water.spacing, middle);
+  const Walling wanted = scene_.sph.walls;
+  const bool mirror = wanted == Walling::mirror || (wanted == Walling::automatic && (D == 1 || only_right_corners(lines)));
+  walls_.emplace(lines, mirror ? WallKind::mirror : WallKind::mvbp, scene_.water.spacing, middle);
 }
 
 template <int D>

@@ -58,6 +58,11 @@ template <int D>
 void Solver<D>::find_neighbours() {
   order_.sort(particles_);
   clusters_.cut(order_.rows());
+  list_neighbours();
+}
+
+template <int D>
+void Solver<D>::list_neighbours() {
   const Particles<D> p = bind();
   order_.measure_reach(particles_, p.h, Kernel<D>::support * (1 + list_margin));
   neighbours_.build<D>(clusters_, {p.x, p.h, order_.rows(), p.x, p.h, Kernel<D>::support, list_margin});
@@ -78,10 +83,7 @@ void Solver<D>::close_density(double ahead) {
     report_.floored = r.floored;
     if (r.outgrown == 0) return;
     ++report_.rebuilds;
-    const Particles<D> p = bind();
-    order_.measure_reach(particles_, p.h, Kernel<D>::support * (1 + list_margin));
-    neighbours_.build<D>(clusters_, {p.x, p.h, order_.rows(), p.x, p.h, Kernel<D>::support, list_margin});
-    if (walls_) walls_->find(clusters_, p.x, p.h, list_margin);
+    list_neighbours();
   }
 }
 

@@ -42,7 +42,8 @@ class Solver : public Method {
   MotionOptions<D> motion() const;
   Field<int> kind() const;
   std::optional<Bed<D>> bed() const;
-  void find_neighbours();
+  void find_neighbours();  // sorts and lists
+  void list_neighbours();
   void close_density(double ahead);
   void evaluate(double kick_dt, double ahead);
   WallView<D> wall_view() const { return walls_ ? walls_->view() : WallView<D>{}; }

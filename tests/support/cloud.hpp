@@ -144,7 +144,7 @@ class Cloud {
     for (std::size_t k = 0; k < grains.size(); ++k) set(p, static_cast<int>(k), grains[k]);
   }
 
-  void add_walls(const std::vector<Polyline>& lines, const Point& inside) { walls.emplace(lines, spacing_, inside); }
+  void add_walls(const std::vector<Polyline>& lines, const Point& inside) { walls.emplace(lines, WallKind::mvbp, spacing_, inside); }
 
   swe::Particles<D> bind() const {
     swe::Particles<D> p;

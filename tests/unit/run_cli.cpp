@@ -102,7 +102,7 @@ TEST_CASE("a finished run exits with 0 and leaves all its files") {
   CHECK_THAT(again.out, Contains("complete"));
 }
 
-TEST_CASE("--quiet prints nothing") {
+TEST_CASE("with --quiet a run prints nothing") {
   const test::Scratch scratch;
   const Result run = freshet_with({"run", scene_in(scratch), "--quiet", "--out=" + (scratch / "results")});
   CHECK(run.code == 0);
@@ -171,7 +171,7 @@ TEST_CASE("each failure has its exit code") {
   CHECK_THAT(told.err, Contains("internal error: two and two") && Contains("please report"));
 }
 
-TEST_CASE("SIGINT and SIGTERM finish the step, write the state and exit with 130; the run can be resumed") {
+TEST_CASE("SIGINT and SIGTERM finish the step, write the state and exit with 130, the run can be resumed") {
   const test::Scratch scratch;
   const int signal = GENERATE(SIGINT, SIGTERM);
   const std::string results = scratch / "results";

@@ -74,7 +74,7 @@ TEST_CASE("A planned method says that it is not built yet") {
               "  help: use method = \"sph-swe\"");
 }
 
-TEST_CASE("A wrong type is an error; quotes around a number are pointed out") {
+TEST_CASE("A wrong type is an error, quotes around a number are pointed out") {
   check_error(pond("[output]\nevery = true\n"),
               "scene.toml:9:9: error: 'output.every' must be a number, not a boolean\n"
               "  every = true\n"

@@ -66,7 +66,7 @@ TEST_CASE("Assignments and lists are not expressions") {
              Catch::StartsWith("scene.toml:9:7: error: in 'bed.z': one value is wanted"));
 }
 
-TEST_CASE("A surface becomes a depth over the bed; a depth does not") {
+TEST_CASE("A surface becomes a depth over the bed, a depth does not") {
   const Scene surface = read_text(canal("[bed]\nz = \"0.1*x\"\n"));
   CHECK(surface.water.depth(2, 0) == Approx(0.8));
   CHECK(surface.water.surface(2, 0) == 1);

@@ -1,0 +1,203 @@
+// What a scene does not name is neither launched nor allocated.
+#include <catch2/catch.hpp>
+
+#include <map>
+#include <set>
+#include <string>
+
+#include "tests/support/scenes.hpp"
+
+using namespace freshet;
+using test::Flow;
+
+namespace {
+
+std::vector<std::string>* launched = nullptr;
+std::vector<std::string>* allocated = nullptr;
+
+// Records the labels of launches and allocations through Kokkos' tool callbacks for the length of a scope.
+class Recording {
+ public:
+  std::vector<std::string> launches, allocations;
+
+  Recording() {
+    launched = &launches, allocated = &allocations;
+    const auto launch = [](const char* label, const uint32_t, uint64_t*) { launched->push_back(label); };
+    set_launch(launch);
+    Kokkos::Tools::Experimental::set_allocate_data_callback(
+        [](const Kokkos::Profiling::SpaceHandle, const char* label, const void*, const uint64_t) { allocated->push_back(label); });
+  }
+  ~Recording() {
+    set_launch(nullptr);
+    Kokkos::Tools::Experimental::set_allocate_data_callback(nullptr);
+  }
+  Recording(const Recording&) = delete;
+  Recording& operator=(const Recording&) = delete;
+
+  std::set<std::string> labels() const { return {launches.begin(), launches.end()}; }
+
+ private:
+  static void set_launch(void (*callback)(const char*, const uint32_t, uint64_t*)) {
+    Kokkos::Tools::Experimental::set_begin_parallel_for_callback(callback);
+    Kokkos::Tools::Experimental::set_begin_parallel_reduce_callback(callback);
+    Kokkos::Tools::Experimental::set_begin_parallel_scan_callback(callback);
+  }
+};
+
+// A drop that spreads: flat, frictionless, without walls and boundaries.
+Scene drop() {
+  Scene scene = test::bare_scene(2, {-1, -1}, {1, 1}, 0.05);
+  scene.water.depth = [](double x, double y) { return 0.5 - x * x - y * y; };
+  scene.water.wet_above = 0.05;
+  return scene;
+}
+
+const std::vector<std::string> sorting{"cellgrid::extent", "cellgrid::clear", "cellgrid::count", "cellgrid::scan",
+                                       "cellgrid::place",  "cellgrid::settle"};
+
+// The launches of one step of a bare scene, in their order. fields: how many the sort carries.
+std::vector<std::string> bare_step(int fields) {
+  std::vector<std::string> labels{"swe::kick_and_drift"};
+  labels.insert(labels.end(), sorting.begin(), sorting.end());
+  labels.insert(labels.end(), static_cast<size_t>(fields), "cellgrid::permute");
+  for (const char* label : {"cellgrid::count_clusters", "cellgrid::cut_clusters", "cellgrid::largest_h", "cellgrid::tile_h",
+                            "cellgrid::reach", "cellgrid::list", "swe::density", "swe::force", "swe::accelerate"})
+    labels.emplace_back(label);
+  return labels;
+}
+
+int sorted_fields(const FieldSet& fields) {
+  int count = 0;
+  for (const auto& f : fields.reals()) count += is_sorted(f.carry);
+  for (const auto& f : fields.integers()) count += is_sorted(f.carry);
+  return count;
+}
+
+std::set<std::string> field_names(const Scene& scene) {
+  const Flow flow(scene);
+  std::set<std::string> names;
+  for (const auto& f : flow.method->fields().reals()) names.insert(f.name);
+  for (const auto& f : flow.method->fields().integers()) names.insert(f.name);
+  return names;
+}
+
+// Labels of a step of this scene beyond those of the bare one.
+std::set<std::string> extra_labels(const Scene& scene) {
+  Flow flow(scene);
+  flow.many_steps(3);
+  const Recording recording;
+  flow.many_steps(1);
+  std::set<std::string> extra = recording.labels();
+  for (const auto& label : bare_step(1)) extra.erase(label);
+  return extra;
+}
+
+std::set<std::string> minus(std::set<std::string> a, const std::set<std::string>& b) {
+  for (const auto& name : b) a.erase(name);
+  return a;
+}
+
+using Names = std::set<std::string>;
+
+}  // namespace
+
+TEST_CASE("skips: a bare scene launches exactly its passes, in order") {
+  Flow flow(drop());
+  flow.many_steps(5);
+  const long rebuilds = flow.method->report().rebuilds;
+  const Recording recording;
+  flow.many_steps(1);
+  REQUIRE(flow.method->report().rebuilds == rebuilds);  // else lists and densities are launched again
+  CHECK(recording.launches == bare_step(sorted_fields(flow.method->fields())));
+}
+
+TEST_CASE("skips: stable_dt launches nothing") {
+  Flow flow(drop());
+  const Recording recording;
+  CHECK(flow.method->stable_dt() > 0);
+  CHECK(recording.launches.empty());
+}
+
+TEST_CASE("skips: a step allocates nothing after the first ones") {
+  Flow flow(drop());
+  flow.many_steps(3);
+  const Recording recording;
+  flow.many_steps(7);  // the drop grows by 13 %, its cells by 26 %: storage has half its size to spare
+  CHECK(recording.launches.size() > 20);
+  CHECK(recording.allocations == std::vector<std::string>{});
+}
+
+TEST_CASE("skips: a spreading drop allocates a few times only, as its storage grows by half") {
+  Flow flow(drop());
+  flow.many_steps(10);
+  const Recording recording;
+  flow.many_steps(20);
+  std::map<std::string, int> count;
+  for (const auto& label : recording.allocations) ++count[label];
+  for (const auto& [label, times] : count) {
+    CAPTURE(label);
+    CHECK(times <= 5);  // 2.5 times the diameter, 6 times the cells: log(6)/log(1.5) = 4.4 enlargements
+  }
+}
+
+TEST_CASE("skips: fields come with the features that need them") {
+  const Names bare = field_names(drop());
+  for (const char* name : {"bed", "drag", "kind"}) CHECK(bare.count(name) == 0);
+  CHECK(bare.count("strain_xx") == 1);  // MUSCL is the default
+
+  Scene scene = drop();
+  scene.sph.stabilisation = Stabilisation::lax_friedrichs;
+  CHECK(minus(bare, field_names(scene)) == Names{"strain_xx", "strain_xy", "strain_yy"});
+
+  scene = drop();
+  scene.bed.elevation = [](double x, double) { return 0.01 * x; };
+  CHECK(minus(field_names(scene), bare) == Names{"bed"});
+
+  scene = drop();
+  scene.manning = 0.01;
+  CHECK(minus(field_names(scene), bare) == Names{"drag"});
+
+  scene = drop();
+  test::close_box(scene);
+  CHECK(field_names(scene) == bare);  // walls have points of their own
+
+  scene = drop();
+  test::open_left(scene, freshet::OpenBoundary::Kind::wave, {{0}, {0.1}});
+  CHECK(minus(field_names(scene), bare) == Names{"kind"});
+}
+
+TEST_CASE("skips: launches come with the features that need them") {
+  CHECK(extra_labels(drop()) == Names{});
+
+  Scene scene = drop();
+  scene.bed.elevation = [](double x, double) { return 0.01 * x; };
+  scene.manning = 0.01;
+  CHECK(extra_labels(scene) == Names{});  // bed and friction are part of the O(N) passes
+
+  scene = drop();
+  test::close_box(scene);
+  CHECK(extra_labels(scene) == Names{"walls::reflect"});
+
+  scene = drop();
+  test::open_left(scene, freshet::OpenBoundary::Kind::wave, {{0}, {0.1}});
+  scene.walls.clear();
+  const Names opened = extra_labels(scene);
+  CHECK(opened.count("open::convert") == 1);
+  for (const auto& label : opened) {
+    CAPTURE(label);
+    CHECK(label.substr(0, 6) == "open::");
+  }
+}
+
+TEST_CASE("skips: no roughness is no friction to the bit") {
+  Scene plain = drop(), smooth = drop();
+  plain.bed.elevation = smooth.bed.elevation = [](double x, double y) { return 0.1 * x * x + 0.05 * std::sin(3 * y); };
+  smooth.manning = 0;
+  Flow a(plain), b(smooth);
+  a.many_steps(60), b.many_steps(60);
+  CHECK(a.t == b.t);
+  for (const char* name : {"x", "y", "u", "v", "depth", "h", "mass"}) {
+    CAPTURE(name);
+    CHECK((a.by_id(name) == b.by_id(name)));
+  }
+}
