@@ -185,7 +185,7 @@ struct SolveDensity {
     me.store(p.celerity, root(options.gravity * state.rho));
     me.store(p.weight, m * per_volume * inv_h);
     const Lane rate = -free * (s.slope.divergence() * per_volume * inv_h + s.wall.approach) / state.alpha;
-    me.store(p.growth, rate + options.ahead * (rate - me.load(p.rate)));
+    me.store(p.growth, rate + free * options.ahead * (rate - me.load(p.rate)));
     me.store(p.rate, rate);
     if (options.gradient) me.store(p.strain, symmetric_gradient(s.slope, s.spread, free));
   }

@@ -143,6 +143,7 @@ void OpenBoundary<D>::convert(FieldSet& particles, const Particles<D>& p, const 
         f.m(i) *= depth / f.rho(i);  // the particle keeps its area, and with it h
         f.kh(i) *= depth / f.rho(i);
         f.rho(i) = depth;
+        f.rate(i) = 0;
         f.h(i) = smoothing_length<D>(f.kh(i), depth);
         put(f.v, i, state.inward * frame.line.inward);
         put(f.v_pred, i, state.inward * frame.line.inward);
@@ -193,6 +194,7 @@ void OpenBoundary<D>::insert(FieldSet& particles, const std::function<Particles<
           put(f.v_pred, i, row(r).inward * frame.line.inward);
           f.m(i) = depth * area;
           f.rho(i) = depth;
+          f.rate(i) = 0;
           f.h0(i) = f.h(i) = h;
           f.kh(i) = depth * power<D>(h);
           new_id(i) = first_id + k;
