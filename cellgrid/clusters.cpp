@@ -40,9 +40,6 @@ KOKKOS_FORCEINLINE_FUNCTION Box box_of(const Vec<Lane, 2>& x) {
   return {smallest(x.x), largest(x.x), smallest(x.y), largest(x.y)};
 }
 
-KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 1> broadcast(const Vec<double, 1>& a) { return {Lane(a.x)}; }
-KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 2> broadcast(const Vec<double, 2>& a) { return {Lane(a.x), Lane(a.y)}; }
-
 // Fills one cluster's slab; what does not fit is counted but not stored. Returns the full length.
 template <int D>
 struct Lister {

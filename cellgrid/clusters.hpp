@@ -56,6 +56,14 @@ struct Lanes {
   }
 };
 
+// One value in every lane: the neighbour's side of a pair.
+KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 1> broadcast(const Vec<double, 1>& a) { return {Lane(a.x)}; }
+KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 2> broadcast(const Vec<double, 2>& a) { return {Lane(a.x), Lane(a.y)}; }
+KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 1> broadcast(const SymField<double, 1>& f, int j) { return {Lane(f.xx(j))}; }
+KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 2> broadcast(const SymField<double, 2>& f, int j) {
+  return {Lane(f.xx(j)), Lane(f.xy(j)), Lane(f.yy(j))};
+}
+
 // All particles cut into clusters, row by row.
 class ClusterSet {
  public:

@@ -76,17 +76,14 @@ struct SolveDensity {
   ImposedLanes imposed_lanes;
   DensityOptions options;
 
-  KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 1> spread(const Vec<double, 1>& a) const { return {Lane(a.x)}; }
-  KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 2> spread(const Vec<double, 2>& a) const { return {Lane(a.x), Lane(a.y)}; }
-
   template <bool Gradients>
   KOKKOS_INLINE_FUNCTION Sums<D> sum(int c, const Vec<Lane, D>& x, const Vec<Lane, D>& v, Lane m, Lane h0, Lane h) const {
     Sums<D> s;
     const Lane inv_h = 1.0 / h;
     near.for_each(c, [&](int j) {
       Vec<Lane, D> v_ji;
-      if constexpr (Gradients) v_ji = spread(at(p.v_pred, j)) - v;
-      add_pair<Gradients>(spread(at(p.x, j)) - x, v_ji, Lane(p.m(j)), inv_h, s);
+      if constexpr (Gradients) v_ji = broadcast(at(p.v_pred, j)) - v;
+      add_pair<Gradients>(broadcast(at(p.x, j)) - x, v_ji, Lane(p.m(j)), inv_h, s);
     });
     const Lane per_volume = power<D>(inv_h);
     s.density *= per_volume;
@@ -105,7 +102,7 @@ struct SolveDensity {
       const Vec<Lane, D> x_image = image(x), v_image = image.turn(v);
       Sums<D> s;
       near.for_each(c, [&](int j) {
-        add_pair<true>(spread(at(p.x, j)) - x_image, spread(at(p.v_pred, j)) - v_image, Lane(p.m(j)), inv_h, s);
+        add_pair<true>(broadcast(at(p.x, j)) - x_image, broadcast(at(p.v_pred, j)) - v_image, Lane(p.m(j)), inv_h, s);
       });
       wall.density += weight * per_volume * s.density;
       wall.moment += weight * per_volume * inv_h * trace(s.spread);
@@ -117,14 +114,9 @@ struct SolveDensity {
                                         WallSums<Lane, D>& s) const {
     walls.near.for_each(c, [&](int k) {
       const Vec<Lane, D> normal_velocity = broadcast(walls.projector, k) * v;
-      add_wall<Kernel<D>>(x - spread(at(walls.x, k)), normal_velocity, inv_h, mass, s);
+      add_wall<Kernel<D>>(x - broadcast(at(walls.x, k)), normal_velocity, inv_h, mass, s);
     });
   }
-  KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 1> broadcast(const SymField<double, 1>& f, int k) const { return {Lane(f.xx(k))}; }
-  KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 2> broadcast(const SymField<double, 2>& f, int k) const {
-    return {Lane(f.xx(k)), Lane(f.xy(k)), Lane(f.yy(k))};
-  }
-
   // Newton on psi = rho - sum m W(h(rho)) (2.8)-(2.10), its factor held within [1/2, 2]. Where h is at a bound it does not
   // follow rho: alpha = 1 and the root is the sum itself. "Bounded" is decided here, once, by the last evaluation.
   template <bool Gradients>
@@ -160,7 +152,7 @@ struct SolveDensity {
     }
     const Lane wanted = clamp(smoothing_length<D>(kh, rho), low, high);
     h = select(Lane(0.5) < imposed, smoothing_length<D>(kh, rho), wanted);
-    alpha = select(Lane(0.5) < larger(bounded, imposed), Lane(1.0), alpha);
+    alpha = select(Lane(0.5) < imposed, Lane(options.imposed_alpha), select(Lane(0.5) < bounded, Lane(1.0), alpha));
     write(me, {rho, h, alpha, imposed}, first, m);
     evaluations += n;
     most = larger(most, n);

@@ -12,6 +12,7 @@ struct DensityOptions {
   double margin;        // growth of h that the neighbour list still covers
   LengthBounds bounds;  // of h
   bool gradient;        // the stabilisation reconstructs velocities
+  double imposed_alpha;  // of particles with an imposed state
   double ahead;         // extrapolation of d rho/dt to the middle of the next step: 1/2 at equal steps, 0 = none
 };
 

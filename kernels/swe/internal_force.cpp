@@ -3,13 +3,6 @@
 namespace freshet::swe {
 namespace {
 
-KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 1> broadcast(const Vec<double, 1>& a) { return {Lane(a.x)}; }
-KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 2> broadcast(const Vec<double, 2>& a) { return {Lane(a.x), Lane(a.y)}; }
-KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 1> broadcast(const SymField<double, 1>& f, int k) { return {Lane(f.xx(k))}; }
-KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 2> broadcast(const SymField<double, 2>& f, int k) {
-  return {Lane(f.xx(k)), Lane(f.xy(k)), Lane(f.yy(k))};
-}
-
 template <int D>
 struct ForceSums {
   Vec<Lane, D> t;

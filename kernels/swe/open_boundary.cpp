@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "cellgrid/sums.hpp"
+#include "kernels/swe/lattice.hpp"
 
 namespace freshet::swe {
 namespace {
@@ -54,7 +55,7 @@ template <int D>
 OpenBoundary<D>::OpenBoundary(const OpenLine<D>& line, OpenKind kind, std::function<double(double)> level, double spacing,
                               double eta, double gravity)
     : line_(line), kind_(kind), level_(std::move(level)), spacing_(spacing), eta_(eta), gravity_(gravity),
-      buffer_(columns * spacing) {
+      buffer_(columns * spacing), summed_(lattice_sums<D>(eta).density) {
   rows_ = D == 1 ? 1 : std::max(1, static_cast<int>(std::lround(line.length / spacing)));
   width_ = D == 1 ? 1 : line.length / rows_;
   row_ = Kokkos::View<Row*, Memory>("open.rows", static_cast<size_t>(rows_));
@@ -68,6 +69,7 @@ void OpenBoundary<D>::observe(const Rows& rows, const Particles<D>& p, const Fie
   const auto row = row_;
   const std::optional<Bed<D>> ground = bed;
   const Particles<D> f = p;
+  const double summed = summed_;
   Kokkos::parallel_for("open::observe", Range(0, rows_), KOKKOS_LAMBDA(int r) {
         const Vec<double, D> at_line = frame.point(r, 0);
         double y = 0;
@@ -80,7 +82,7 @@ void OpenBoundary<D>::observe(const Rows& rows, const Particles<D>& p, const Fie
             const Vec<double, D> d = at(f.x, j) - at_line;
             const double w = f.m(j) / f.rho(j) * power<D>(f.inv_h(j)) * Kernel<D>::at(root(dot(d, d)) * f.inv_h(j)).w;
             weight += w;
-            level += w * (f.rho(j) + (ground ? ground->level(j) : 0.0));
+            level += w * (f.rho(j) / summed + (ground ? ground->level(j) : 0.0));
             speed += w * dot(at(f.v, j), frame.line.inward);
           }
         });
@@ -113,6 +115,7 @@ void OpenBoundary<D>::set_exterior(double t, const std::optional<Bed<D>>& bed) {
           s.inward = s.speed + 2 * (c_level - c_inner);
           s.depth = c_level * c_level / g;
         }
+        s.through = s.inward > 0 ? s.inward * s.depth : s.speed * larger(s.level - b, least);
       });
 }
 
@@ -123,7 +126,7 @@ void OpenBoundary<D>::convert(FieldSet& particles, const Particles<D>& p, const 
   const std::optional<Bed<D>> ground = bed;
   const Particles<D> f = p;
   const Field<int> kind = particles.integer("kind");
-  const double trim = buffer_ + 0.75 * spacing_;
+  const double trim = buffer_ + 0.75 * spacing_, summed = summed_;
   const auto crossed = ordered_sum<2>("open::convert", particles.size(), KOKKOS_LAMBDA(int i) {
         Kokkos::Array<double, 2> in_out{};
         const Vec<double, D> x = at(f.x, i);
@@ -139,12 +142,12 @@ void OpenBoundary<D>::convert(FieldSet& particles, const Particles<D>& p, const 
         }
         if (kind(i) != OpenBoundary::boundary) return in_out;
         const Row state = row(s.row);
-        const double depth = outer_depth<D>(ground, frame.point(s.row, 0), x, state.depth);
-        f.m(i) *= depth / f.rho(i);  // the particle keeps its area, and with it h
-        f.kh(i) *= depth / f.rho(i);
-        f.rho(i) = depth;
+        const double rho = summed * outer_depth<D>(ground, frame.point(s.row, 0), x, state.depth);
+        f.m(i) *= rho / f.rho(i);  // the particle keeps its area, and with it h
+        f.kh(i) *= rho / f.rho(i);
+        f.rho(i) = rho;
         f.rate(i) = 0;
-        f.h(i) = smoothing_length<D>(f.kh(i), depth);
+        f.h(i) = smoothing_length<D>(f.kh(i), rho);
         put(f.v, i, state.inward * frame.line.inward);
         put(f.v_pred, i, state.inward * frame.line.inward);
         if (s.inside < -trim) f.id(i) = -1;
@@ -184,6 +187,7 @@ void OpenBoundary<D>::insert(FieldSet& particles, const std::function<Particles<
   const std::optional<Bed<D>> ground = bed;
   const double area = D == 1 ? dx : dx * width_, h = eta_ * (D == 1 ? area : root(area));
   const int first_id = next_id;
+  const double summed = summed_;
   Kokkos::parallel_for("open::insert", Range(0, rows), KOKKOS_LAMBDA(int r) {
         for (int k = room(r); k < room(r + 1); ++k) {
           const int i = n + k;
@@ -193,10 +197,11 @@ void OpenBoundary<D>::insert(FieldSet& particles, const std::function<Particles<
           put(f.v, i, row(r).inward * frame.line.inward);
           put(f.v_pred, i, row(r).inward * frame.line.inward);
           f.m(i) = depth * area;
-          f.rho(i) = depth;
+          f.rho(i) = summed * depth;
           f.rate(i) = 0;
-          f.h0(i) = f.h(i) = h;
+          f.h0(i) = h;
           f.kh(i) = depth * power<D>(h);
+          f.h(i) = smoothing_length<D>(f.kh(i), f.rho(i));
           new_id(i) = first_id + k;
           new_kind(i) = OpenBoundary::boundary;
         }
@@ -223,8 +228,8 @@ void OpenBoundary<D>::exchange(FieldSet& particles, const std::function<Particle
                                double t, double dt, int& next_id) {
   const auto host = on_host(row_);  // the states that the boundary particles just moved with
   for (int r = 0; r < rows_; ++r) {
-    flow_.flux += host(r).depth * host(r).inward * width_ * dt;
-    flow_.flux_gross += std::abs(host(r).depth * host(r).inward) * width_ * dt;
+    flow_.flux += host(r).through * width_ * dt;
+    flow_.flux_gross += std::abs(host(r).through) * width_ * dt;
   }
   set_exterior(t, bed);
   convert(particles, bind(), bed);
@@ -249,7 +254,7 @@ std::vector<double> OpenBoundary<D>::save() const {
   std::vector<double> state{flow_.inflow, flow_.outflow, flow_.flux, flow_.flux_gross, flow_.straddle0};
   const auto host = on_host(row_);
   for (int r = 0; r < rows_; ++r)
-    for (const double value : {host(r).level, host(r).speed, host(r).still, host(r).depth, host(r).inward,
+    for (const double value : {host(r).level, host(r).speed, host(r).still, host(r).depth, host(r).inward, host(r).through,
                                static_cast<double>(host(r).observed)})
       state.push_back(value);
   return state;
@@ -259,8 +264,8 @@ template <int D>
 void OpenBoundary<D>::restore(const std::vector<double>& s) {
   flow_ = {s[0], s[1], s[2], s[3], s[4]};
   auto host = Kokkos::create_mirror_view(row_);
-  for (size_t r = 0, k = 5; k + 5 < s.size(); ++r, k += 6)
-    host(r) = {s[k], s[k + 1], s[k + 2], s[k + 3], s[k + 4], static_cast<int>(s[k + 5])};
+  for (size_t r = 0, k = 5; k + 6 < s.size(); ++r, k += 7)
+    host(r) = {s[k], s[k + 1], s[k + 2], s[k + 3], s[k + 4], s[k + 5], static_cast<int>(s[k + 6])};
   Kokkos::deep_copy(row_, host);
 }
 

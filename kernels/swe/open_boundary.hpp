@@ -62,6 +62,7 @@ class OpenBoundary {
     double level = 0, speed = 0;        // inner state: level [m], inward velocity [m/s]
     double still = 0;                   // m, level of the water at rest
     double depth = 0, inward = 0;       // exterior state
+    double through = 0;                 // m2/s, inward flow per width: of the side that the water comes from
     int observed = 0;
   };
 
@@ -75,6 +76,7 @@ class OpenBoundary {
   OpenKind kind_;
   std::function<double(double)> level_;
   double spacing_, eta_, gravity_, width_, buffer_;
+  double summed_;  // what the density summation makes of a depth of 1 on a lattice
   int rows_;
   Kokkos::View<Row*, Memory> row_;
   Field<double> farthest_;  // m, outermost boundary particle of each row

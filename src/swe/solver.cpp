@@ -1,5 +1,7 @@
 #include "src/swe/solver.hpp"
 
+#include "kernels/swe/lattice.hpp"
+
 namespace freshet::swe {
 namespace {
 
@@ -21,7 +23,7 @@ bool needs_gradient(const AnyStabilisation& stabilise) {
 template <int D>
 Solver<D>::Solver(const Scene& scene)
     : scene_(scene), order_(D, scene.water.spacing), stabilise_(make_stabilisation(scene.sph)),
-      gradient_(needs_gradient(stabilise_)) {
+      gradient_(needs_gradient(stabilise_)), imposed_alpha_(lattice_sums<D>(scene.sph.eta).alpha) {
   if (scene.manning) friction_ = Friction{scene.gravity, *scene.manning};
   build_bed();
   build_boundaries();
@@ -74,7 +76,7 @@ template <int D>
 void Solver<D>::close_density(double ahead) {
   constexpr int most_lists = 20;  // each may grow h by the margin at most before it is made again
   const DensityOptions options{scene_.gravity, scene_.sph.newton_tolerance, list_margin,
-                               {scene_.sph.h_floor, scene_.sph.h_cap}, gradient_, ahead};
+                               {scene_.sph.h_floor, scene_.sph.h_cap}, gradient_, imposed_alpha_, ahead};
   for (int lists = 0; lists < most_lists; ++lists) {
     const DensityReport r = solve_density<D>(clusters_, neighbours_.view(), wall_view(), bind(), {kind()}, options);
     report_.newton_mean = r.newton_mean;

@@ -55,6 +55,7 @@ class Solver : public Method {
   NeighbourList neighbours_;
   AnyStabilisation stabilise_;
   bool gradient_ = false;
+  double imposed_alpha_ = 1;
   std::optional<Bed<D>> bed_;
   std::optional<Friction> friction_;
   std::optional<Walls<D>> walls_;

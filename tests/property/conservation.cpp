@@ -128,8 +128,13 @@ TEST_CASE("conservation: a lake at rest between two walls stays nearly at rest")
 }
 
 TEST_CASE("conservation: a lake at rest in a walled basin stays nearly at rest") {
-  CHECK(restlessness(lake(2, 0)) < 1e-2);    // Vacondio 2010, 1.4: below 0.01
-  CHECK(restlessness(lake(2, 0.1)) < 1e-2);
+  CHECK(restlessness(lake(2, 0)) < 1e-4);    // images continue the lattice: round-off of the Newton, tolerance 1e-5
+  CHECK(restlessness(lake(2, 0.1)) < 1e-2);  // Vacondio 2010, 1.4: below 0.01
+  Scene scene = lake(2, 0);
+  scene.sph.walls = Walling::mvbp;
+  // These walls lack the image of the second row, which is drawn to the wall by 0.03 to 0.4 g d/dx (SWE-FORMULAS 7) over
+  // half a spacing: 0.2 to 0.45 sqrt(g d) but for the dissipation.
+  CHECK(restlessness(scene) < 0.2);
 }
 
 TEST_CASE("conservation: a pond of one cell beside a lake is an isolated particle from the start") {

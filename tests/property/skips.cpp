@@ -127,6 +127,22 @@ TEST_CASE("skips: a step allocates nothing after the first ones") {
   CHECK(recording.allocations == std::vector<std::string>{});
 }
 
+TEST_CASE("skips: walls and open boundaries allocate nothing inside a step either") {
+  Scene scene = test::bare_scene(2, {0, 0}, {1.2, 0.4}, 0.05);
+  scene.water.depth = [](double x, double) { return 0.3 + 0.02 * x; };
+  if (GENERATE(false, true))
+    test::open_left(scene, freshet::OpenBoundary::Kind::wave, {{0}, {0.3}});
+  else
+    test::close_box(scene);
+  CAPTURE(scene.boundaries.size());
+  Flow flow(scene);
+  flow.many_steps(10);
+  const Recording recording;
+  flow.many_steps(20);
+  CHECK(recording.launches.size() > 20);
+  CHECK(recording.allocations == std::vector<std::string>{});
+}
+
 TEST_CASE("skips: a spreading drop allocates a few times only, as its storage grows by half") {
   Flow flow(drop());
   flow.many_steps(10);

@@ -124,7 +124,14 @@ inline std::vector<Grain> still_water(int dimension, const std::vector<Point>& p
 // What is compared is the equations, not where the iteration stops, nor a list that is too short: a margin of 4 covers the
 // way from the floor of h to its cap.
 inline swe::DensityOptions tight(int dimension) {
-  return {9.81, 1e-13, 4.0, {std::pow(1.6, -1.0 / dimension), 3.0}, true, 0.0};
+  swe::DensityOptions options{};
+  options.gravity = 9.81;
+  options.tolerance = 1e-13;
+  options.margin = 4;
+  options.bounds = {std::pow(1.6, -1.0 / dimension), 3};
+  options.gradient = true;
+  options.imposed_alpha = 1;
+  return options;
 }
 
 template <int D>
@@ -144,7 +151,9 @@ class Cloud {
     for (std::size_t k = 0; k < grains.size(); ++k) set(p, static_cast<int>(k), grains[k]);
   }
 
-  void add_walls(const std::vector<Polyline>& lines, const Point& inside) { walls.emplace(lines, WallKind::mvbp, spacing_, inside); }
+  void add_walls(const std::vector<Polyline>& lines, const Point& inside, WallKind kind = WallKind::mvbp) {
+    walls.emplace(lines, kind, spacing_, inside);
+  }
 
   swe::Particles<D> bind() const {
     swe::Particles<D> p;

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "kernels/swe/lattice.hpp"
 #include "tests/support/cloud.hpp"
 
 using namespace freshet;
@@ -260,4 +261,20 @@ void check_shuffled() {
 TEST_CASE("density: does not depend on the order of the input") {
   check_shuffled<1>();
   check_shuffled<2>();
+}
+
+TEST_CASE("density: the lattice's bias") {
+  // SWE-FORMULAS 1.2 and 1.7, half a unit of the last digit printed there. The sheet's sums are at fixed h; h following the
+  // density changes them by the bias squared.
+  CHECK(swe::lattice_sums<1>(1.0).density == Approx(1).epsilon(1e-12));
+  CHECK(swe::lattice_sums<1>(1.0).alpha == Approx(1).epsilon(1e-12));
+  CHECK(swe::lattice_sums<1>(1.2).density - 1 == Approx(1.8e-3).margin(0.5e-4));
+  CHECK(swe::lattice_sums<1>(1.2).alpha == Approx(1.0204).margin(5e-4));
+  CHECK(swe::lattice_sums<2>(1.2).density - 1 == Approx(-2.4e-4).margin(0.05e-4));
+  CHECK(swe::lattice_sums<2>(1.0).density - 1 == Approx(8.6e-4).margin(0.5e-4));
+  const auto grains = test::still_water(2, test::lattice(2, {0, 20, 0, 20}, dx), dx, 0.7, 1.2);
+  Cloud<2> cloud(grains, dx);
+  cloud.solve(test::tight(2));
+  CHECK(swe::lattice_sums<2>(1.2).density == Approx(cloud.of(10 * 20 + 10, "depth") / 0.7).epsilon(1e-11));
+  CHECK(swe::lattice_sums<2>(1.2).alpha == Approx(0.5 * g / cloud.of(10 * 20 + 10, "pressure")).epsilon(1e-11));
 }
