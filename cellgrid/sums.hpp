@@ -4,26 +4,33 @@
 
 namespace freshet {
 
-// values(i) returns a Kokkos::Array<double, K>; returns their sum over i < n.
-template <int K, class Values>
-Kokkos::Array<double, K> ordered_sum(const char* label, int n, const Values& values) {
-  constexpr int chunk = 512;
-  const int chunks = (n + chunk - 1) / chunk;
-  using Sums = Kokkos::View<double**, Kokkos::LayoutRight, Memory>;
-  const Sums partial(Kokkos::ViewAllocateWithoutInitializing("ordered_sum"), static_cast<size_t>(chunks), K);
-  Kokkos::parallel_for(label, Range(0, chunks), KOKKOS_LAMBDA(int c) {
-        Kokkos::Array<double, K> sum{};
-        for (int i = c * chunk; i < smaller((c + 1) * chunk, n); ++i) {
-          const Kokkos::Array<double, K> value = values(i);
-          for (int k = 0; k < K; ++k) sum[k] += value[k];
-        }
-        for (int k = 0; k < K; ++k) partial(c, k) = sum[k];
-      });
-  const auto host = on_host(partial);
-  Kokkos::Array<double, K> total{};
-  for (int c = 0; c < chunks; ++c)
-    for (int k = 0; k < K; ++k) total[k] += host(c, k);
-  return total;
-}
+class OrderedSums {
+ public:
+  // values(i) returns a Kokkos::Array<double, K>; returns their sum over i < n. The scratch is kept for the next call.
+  template <int K, class Values>
+  Kokkos::Array<double, K> sum(const char* label, int n, const Values& values) {
+    const int chunks = (n + chunk - 1) / chunk;
+    if (partial_.extent_int(0) < chunks * K)
+      partial_ = Field<double>(Kokkos::ViewAllocateWithoutInitializing("cellgrid.partial_sums"), static_cast<size_t>(2 * chunks * K));
+    const Field<double> partial = partial_;
+    Kokkos::parallel_for(label, Range(0, chunks), KOKKOS_LAMBDA(int c) {
+          Kokkos::Array<double, K> sum{};
+          for (int i = c * chunk; i < smaller((c + 1) * chunk, n); ++i) {
+            const Kokkos::Array<double, K> value = values(i);
+            for (int k = 0; k < K; ++k) sum[k] += value[k];
+          }
+          for (int k = 0; k < K; ++k) partial(c * K + k) = sum[k];
+        });
+    const auto host = on_host(partial);
+    Kokkos::Array<double, K> total{};
+    for (int c = 0; c < chunks; ++c)
+      for (int k = 0; k < K; ++k) total[k] += host(c * K + k);
+    return total;
+  }
+
+ private:
+  static constexpr int chunk = 512;
+  Field<double> partial_;
+};
 
 }  // namespace freshet

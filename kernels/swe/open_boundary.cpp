@@ -115,7 +115,9 @@ void OpenBoundary<D>::set_exterior(double t, const std::optional<Bed<D>>& bed) {
           s.inward = s.speed + 2 * (c_level - c_inner);
           s.depth = c_level * c_level / g;
         }
-        s.through = s.inward > 0 ? s.inward * s.depth : s.speed * larger(s.level - b, least);
+        // Inwards move boundary particles. What leaves moves like the water before the line, then like the state behind it.
+        const double outer = s.inward * s.depth, inner = s.speed * larger(s.level - b, least);
+        s.through = s.inward > 0 ? outer : 0.5 * (outer + inner);
       });
 }
 
@@ -127,7 +129,7 @@ void OpenBoundary<D>::convert(FieldSet& particles, const Particles<D>& p, const 
   const Particles<D> f = p;
   const Field<int> kind = particles.integer("kind");
   const double trim = buffer_ + 0.75 * spacing_, summed = summed_;
-  const auto crossed = ordered_sum<2>("open::convert", particles.size(), KOKKOS_LAMBDA(int i) {
+  const auto crossed = sums_.template sum<2>("open::convert", particles.size(), KOKKOS_LAMBDA(int i) {
         Kokkos::Array<double, 2> in_out{};
         const Vec<double, D> x = at(f.x, i);
         if (kind(i) == OpenBoundary::fluid && dot(x - frame.line.origin, frame.line.inward) >= 0) return in_out;
@@ -240,7 +242,7 @@ template <int D>
 double OpenBoundary<D>::straddling(const Particles<D>& p, const Field<int>& kind, int n) const {
   const Frame<D> frame{line_, width_, rows_};
   const Particles<D> f = p;
-  return ordered_sum<1>("open::straddling", n, KOKKOS_LAMBDA(int i) {
+  return sums_.template sum<1>("open::straddling", n, KOKKOS_LAMBDA(int i) {
     const Station s = frame(at(f.x, i));
     const double area = f.m(i) / f.rho(i), width = D == 1 ? area : root(area);
     const double across = larger(0.0, 0.5 - (s.inside < 0 ? -s.inside : s.inside) / width);

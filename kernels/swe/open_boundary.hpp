@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "cellgrid/sums.hpp"
 #include "kernels/swe/motion.hpp"
 
 namespace freshet::swe {
@@ -62,7 +63,7 @@ class OpenBoundary {
     double level = 0, speed = 0;        // inner state: level [m], inward velocity [m/s]
     double still = 0;                   // m, level of the water at rest
     double depth = 0, inward = 0;       // exterior state
-    double through = 0;                 // m2/s, inward flow per width: of the side that the water comes from
+    double through = 0;                 // m2/s, inward flow per width: across the line
     int observed = 0;
   };
 
@@ -82,6 +83,7 @@ class OpenBoundary {
   Field<double> farthest_;  // m, outermost boundary particle of each row
   Field<int> room_;         // boundary particles to insert before each row
   OpenFlow flow_;
+  mutable OrderedSums sums_;
 };
 
 }  // namespace freshet::swe

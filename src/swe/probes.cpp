@@ -1,7 +1,6 @@
 // What the run loop asks of the solver's state: totals, point samples, run-up, restart scalars.
 #include <cmath>
 
-#include "cellgrid/sums.hpp"
 #include "src/errors.hpp"
 #include "src/swe/solver.hpp"
 
@@ -35,7 +34,7 @@ Totals Solver<D>::totals() const {
   const Field<int> kinds = kind();
   const bool open = !boundaries_.empty();
   const int n = particles_.size();
-  totals.mass = ordered_sum<1>("swe::mass", n, KOKKOS_LAMBDA(int i) {
+  totals.mass = sums_.template sum<1>("swe::mass", n, KOKKOS_LAMBDA(int i) {
     return Kokkos::Array<double, 1>{open && kinds(i) != 0 ? 0.0 : p.m(i)};
   })[0];
   for (const auto& boundary : boundaries_) {

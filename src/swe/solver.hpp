@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "cellgrid/sums.hpp"
 #include "kernels/swe/density.hpp"
 #include "kernels/swe/internal_force.hpp"
 #include "kernels/swe/motion.hpp"
@@ -61,6 +62,7 @@ class Solver : public Method {
   std::optional<Walls<D>> walls_;
   std::vector<OpenBoundary<D>> boundaries_;
   StepReport report_;
+  mutable OrderedSums sums_;
   double crossing_time_ = 0;  // s, least h / (c + signal)
   int next_id_ = 0;
 };
