@@ -22,7 +22,7 @@ usage:
 
 SCENE is a scene file or the name of a case. key=value overrides a value of the scene; keys are dotted paths.
 DIR is out/NAME unless given and holds particles.h5part, gauges.csv, summary.json and state.h5. All physical cores are
-used unless --threads says otherwise. Ctrl-C finishes the step and writes the state.
+used (one for scenes of fewer than 2000 cells) unless --threads says otherwise. Ctrl-C finishes the step and writes the state.
 
 examples:
   freshet run okushiri

@@ -83,6 +83,16 @@ std::string one_word(const Arguments& arguments, const std::string& usage) {
                    usage);
 }
 
+// --threads, else all cores (0) unless the scene is so small that starting threads would cost more than they do: the cells
+// that fill the domain are at least as many as the particles.
+int wanted_threads(const Scene& scene, const Arguments& arguments) {
+  constexpr double worth_threads = 2000;
+  double cells = 1;
+  for (std::size_t axis = 0; axis < static_cast<std::size_t>(scene.domain.dimension); ++axis)
+    cells *= (scene.domain.high[axis] - scene.domain.low[axis]) / scene.water.spacing;
+  return arguments.number("--threads", cells < worth_threads ? 1 : 0, 1);
+}
+
 }  // namespace
 
 std::unique_ptr<Runtime> start_kokkos(int threads) {
@@ -96,7 +106,7 @@ int run_command(const Arguments& arguments, const Parts& parts) {
   const bool quiet = arguments.has("--quiet");
   const std::string directory = arguments.value("--out", "out/" + scene.name);
   prepare_directory(directory, arguments.has("--overwrite"));
-  const auto runtime = start_kokkos(arguments.number("--threads", 0, 1));
+  const auto runtime = start_kokkos(wanted_threads(scene, arguments));
   const auto method = parts.make(scene);
   if (!quiet) announce(scene, *method);
   Driver driver(scene, *method, options_for(directory, quiet));
@@ -120,7 +130,7 @@ int resume_command(const Arguments& arguments, const Parts& parts) {
     if (!quiet) std::printf("the run in %s is complete: t = %g s\n", directory.c_str(), t);
     return 0;
   }
-  const auto runtime = start_kokkos(arguments.number("--threads", 0, 1));
+  const auto runtime = start_kokkos(wanted_threads(scene, arguments));
   const auto method = parts.make(scene);
   read_checkpoint_fields(state, method->fields());
   method->restore(checkpoint.method);

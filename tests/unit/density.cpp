@@ -79,6 +79,7 @@ void check_root(double factor, double margin, unsigned seed) {
   CHECK(report.capped == worst.capped);
   CHECK(report.floored == worst.floored);
   CHECK(report.outgrown == 0);
+  CHECK(cloud.lists <= 20);  // what the solver allows
 }
 
 }  // namespace
