@@ -11,7 +11,7 @@ struct Rows {
   double x0 = 0, y0 = 0;                // m, corner
   double bin_width = 1, row_height = 1;           // m
   double per_bin_width = 1, per_row_height = 1;   // 1/m
-  int rows = 0, bins = 0;               // rows, and bins in each
+  int rows = 1, bins = 1;               // rows, and bins in each
   Field<int> start;                     // first particle of bin b of row r at [r * bins + b]; rows * bins + 1 entries
 
   int tile_rows = 1, tile_bins = 1;     // a tile's size in rows and bins: at least the largest support

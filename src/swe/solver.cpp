@@ -1,6 +1,7 @@
 #include "src/swe/solver.hpp"
 
 #include "kernels/swe/lattice.hpp"
+#include "src/errors.hpp"
 
 namespace freshet::swe {
 namespace {
@@ -87,6 +88,9 @@ void Solver<D>::close_density(double ahead) {
     ++report_.rebuilds;
     list_neighbours();
   }
+  throw Diverged("the density did not settle: some smoothing length still outgrows its neighbour list after " +
+                 std::to_string(most_lists) + " lists; limit: growth by " + std::to_string(list_margin) +
+                 " per list\n  help: a smaller time.cfl, or look at the start for particles on top of each other");
 }
 
 template <int D>
