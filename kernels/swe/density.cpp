@@ -117,9 +117,9 @@ struct SolveDensity {
       add_wall<Kernel<D>>(x - broadcast(at(walls.x, k)), normal_velocity, inv_h, mass, s);
     });
   }
+
   // Newton on psi = rho - sum m W(h(rho)) (2.8)-(2.10), its factor held within [1/2, 2]. Where h is at a bound it does not
   // follow rho: alpha = 1 and the root is the sum itself. "Bounded" is decided here, once, by the last evaluation.
-  template <bool Gradients>
   KOKKOS_INLINE_FUNCTION void solve(int c, double& evaluations, int& most, int& outgrown, int& capped, int& floored) const {
     const Lanes me = clusters(c);
     const Vec<Lane, D> x = me.load(p.x), v = me.load(p.v_pred);
@@ -129,7 +129,7 @@ struct SolveDensity {
     const Lane longest_listed = (1.0 + options.margin) * listed;
     Lane rho = me.load(p.rho), h = clamp(smoothing_length<D>(kh, rho), low, smaller(high, longest_listed));
     const Lane imposed_rho = rho;
-    Sums<D> s = sum<Gradients>(c, x, v, m, h0, h);
+    Sums<D> s = sum<true>(c, x, v, m, h0, h);
     const Sums<D> first = s;  // the gradient and the rate need no more than the predicted h
     Lane alpha, bounded;
     int n = 1;
@@ -184,7 +184,7 @@ struct SolveDensity {
 
   KOKKOS_INLINE_FUNCTION void operator()(int c, double& evaluations, int& most, int& outgrown, int& capped,
                                          int& floored) const {
-    solve<true>(c, evaluations, most, outgrown, capped, floored);
+    solve(c, evaluations, most, outgrown, capped, floored);
   }
 };
 
