@@ -76,7 +76,7 @@ struct WallView {
   Stretch stretch;
   VecField<double, D> x;           // m, wall points
   SymField<double, D> projector;   // P: onto the directions that the wall reflects
-  Field<double> share;             // of the virtual mass: 1, rows: the area of each point [m2] (1-D: m)
+  Field<double> share;             // of the virtual mass: about 1; rows: the area of each point [m2] (1-D: m)
   NeighbourView near;              // wall points by cluster
   Field<int> segment;              // of each wall point
   Kokkos::View<WallSegment*, Memory> segments;
@@ -86,8 +86,11 @@ struct WallView {
     if (rows) return rho;
     return D == 1 ? m : m * h0_per_h;
   }
-  // Whether the virtual masses follow the particle's own depth.
-  KOKKOS_FORCEINLINE_FUNCTION bool follows_depth() const { return on && rows; }
+  // d ln m_k / d ln rho_i: how far virtual masses follow the particle's own depth.
+  KOKKOS_FORCEINLINE_FUNCTION double follows_depth() const { return !on || mirror ? 0.0 : rows ? 1.0 : (D - 1.0) / D; }
+  // How often a virtual particle at `s` times the distance of its wall point pushes. Rows push like real particles, whose own
+  // sums feel i too; the others push as the energy of i alone asks, since dx_k/dx_i = 1 - s.
+  KOKKOS_FORCEINLINE_FUNCTION double pushes(double s) const { return rows ? 2.0 : s; }
 
   // 1 in the lanes that stand before the segment itself, not beside it.
   KOKKOS_FORCEINLINE_FUNCTION static Lane before(const WallSegment&, const Vec<Lane, 1>&) { return 1.0; }
@@ -99,7 +102,7 @@ struct WallView {
   // mirror: calls see(image, weight) for the images of a cluster in the walls near it; weight is 0 in lanes without one.
   template <class See>
   KOKKOS_INLINE_FUNCTION void for_each_image(int cluster, const Vec<Lane, D>& here, const See& see) const {
-    constexpr int most = 4;  // more pieces of wall do not meet within a support
+    constexpr int most = 24;  // pieces of wall within a support: two or three, many along a curve
     int found[most], n = 0;
     near.for_each(cluster, [&](int k) {
       bool known = n == most;
@@ -110,6 +113,7 @@ struct WallView {
       const WallSegment s = segments(found[a]);
       const Image<D> image(s);
       const Lane weight = before(s, here);
+      if (!any(Lane(0.0) < weight)) continue;
       see(image, weight);
       for (int b = 0; b < n; ++b)
         if (found[b] == s.next) see(image.then(Image<D>(segments(s.next))), weight * before(segments(s.next), here));

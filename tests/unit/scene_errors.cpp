@@ -51,8 +51,8 @@ TEST_CASE("Unknown tables and unknown keys of inline tables are errors too") {
 
 TEST_CASE("An unknown value of a choice is an error that names the value meant") {
   check_error(pond("[sph]\nstabilise = \"lax-friedrich\"\n"),
-              "scene.toml:9:13: error: 'sph.stabilise' is 'lax-friedrich'; it must be one of 'none' or "
-              "'lax-friedrichs'\n"
+              "scene.toml:9:13: error: 'sph.stabilise' is 'lax-friedrich'; it must be one of 'none', 'artificial-viscosity', "
+              "'lax-friedrichs' or 'two-shock'\n"
               "  stabilise = \"lax-friedrich\"\n"
               "              ^\n"
               "  help: did you mean 'lax-friedrichs'?");
