@@ -77,7 +77,7 @@ std::vector<Placed> place_equal_mass(const Scene& scene, const Function& depth) 
 
 std::vector<Placed> place(const Scene& scene, const Function& depth) {
   auto particles = scene.water.start == Water::Start::equal_mass ? place_equal_mass(scene, depth) : place_cells(scene, depth);
-  if (particles.empty()) throw SceneError("water: no particle is wet; the depth is nowhere above " +
+  if (particles.empty() && scene.boundaries.empty()) throw SceneError("water: no particle is wet; the depth is nowhere above " +
                                           std::to_string(scene.water.wet_above) + " m: check [water] and [bed]");
   return particles;
 }

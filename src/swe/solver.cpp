@@ -30,7 +30,7 @@ Solver<D>::Solver(const Scene& scene)
   build_boundaries();
   build_walls();
   place_particles();
-  for (auto& boundary : boundaries_) boundary.fill(particles_, [this] { return bind(); }, bed(), next_id_);
+  fill_boundaries();
   find_neighbours();
   evaluate(0, 0);
   for (auto& boundary : boundaries_) {
