@@ -15,7 +15,7 @@ struct WallPoint {
 };
 
 WallSegment segment_between(const std::array<double, 2>& a, const std::array<double, 2>& b) {
-  WallSegment s{{a[0], a[1]}, {b[0], b[1]}, {}, {}, std::hypot(b[0] - a[0], b[1] - a[1]), 0, 0, -1};
+  WallSegment s{{a[0], a[1]}, {b[0], b[1]}, {}, {}, std::hypot(b[0] - a[0], b[1] - a[1]), 0, 0, 0, 0, -1};
   for (int k = 0; k < 2; ++k) s.tangent[k] = (s.b[k] - s.a[k]) / s.length;
   s.normal[0] = -s.tangent[1];
   s.normal[1] = s.tangent[0];
@@ -49,9 +49,11 @@ void extend_corner(WallSegment& s, WallSegment& t, int first, int second, double
   if (turn <= 1e-9) return;
   points.push_back(face_point(s, s.length + step, first));
   points.push_back(face_point(t, -step, second));
-  s.after = t.before = 4 * step;
+  s.after = s.see_b = t.before = t.see_a = 4 * step;
   s.next = second;
 }
+
+constexpr double all = 1e300;  // m
 
 // first: the number of the chain's first segment.
 void sample_chain(std::vector<WallSegment>& chain, int first, bool closed, double spacing, std::vector<WallPoint>& points) {
@@ -67,8 +69,12 @@ void sample_chain(std::vector<WallSegment>& chain, int first, bool closed, doubl
       extend_corner(s, t, here, next, s.length / steps, points);
     } else {
       points.push_back(face_point(s, s.length, here));
+      s.see_b = all;
     }
-    if (k == 0 && !closed) points.push_back(face_point(s, 0, here));
+    if (k == 0 && !closed) {
+      points.push_back(face_point(s, 0, here));
+      s.see_a = all;
+    }
   }
 }
 
@@ -94,7 +100,7 @@ Geometry lay_ends(const std::vector<Line>& lines, double inside) {
   for (const Line& line : lines) {
     const double x = line.front()[0], side = inside > x ? 1.0 : -1.0;
     g.points.push_back({{x, 0}, {1, 0, 0}, static_cast<int>(g.segments.size())});
-    g.segments.push_back({{x, 0}, {x, 0}, {0, 0}, {side, 0}, 0, 0, 0, -1});
+    g.segments.push_back({{x, 0}, {x, 0}, {0, 0}, {side, 0}, 0, 0, 0, 0, 0, -1});
   }
   return g;
 }

@@ -58,8 +58,8 @@ void set_exterior(OpenRow& row, const InnerState& inner, const ExteriorState& ex
 
 template <int D>
 OpenBoundary<D>::OpenBoundary(const std::vector<OpenLine<D>>& pieces, std::function<OpenLaw(double)> law,
-                              const OpenBufferOptions& options, double gravity, int first_owner)
-    : law_(std::move(law)), gravity_(gravity) {
+                              const std::vector<double>& times, const OpenBufferOptions& options, double gravity, int first_owner)
+    : law_(std::move(law)), times_(times), gravity_(gravity) {
   for (const OpenLine<D>& piece : pieces) buffers_.emplace_back(piece, options, first_owner++);
 }
 
@@ -91,6 +91,22 @@ void OpenBoundary<D>::impose(double t, double dt) {
   }
 }
 
+// The fastest that is imposed at any time, as it would enter dry land.
+template <int D>
+void OpenBoundary<D>::foresee() {
+  double fastest = 1e-300, length = 0;
+  for (const auto& buffer : buffers_) length += buffer.length();
+  for (const double t : times_) {
+    const OpenLaw law = law_(t);
+    for (const auto& buffer : buffers_)
+      for (const OpenRow& row : buffer.rows()) {
+        const ExteriorState s = exterior_state(law, {}, {gravity_, row.bed, row.still - row.bed, 1 / length});
+        fastest = std::max({fastest, s.inward, std::sqrt(gravity_ * s.depth)});
+      }
+  }
+  crossing_time_ = buffers_.front().smoothing() / fastest;
+}
+
 template <int D>
 void OpenBoundary<D>::account(const std::vector<OpenRow>& rows, double width, double dt) {
   for (const OpenRow& row : rows) {
@@ -99,26 +115,29 @@ void OpenBoundary<D>::account(const std::vector<OpenRow>& rows, double width, do
   }
 }
 
+// The level observed now is that of the water at rest.
+template <int D>
+void OpenBoundary<D>::take_still() {
+  for (auto& buffer : buffers_) {
+    std::vector<OpenRow> rows = buffer.rows();
+    for (OpenRow& row : rows) row.still = row.wet ? row.level : row.bed;
+    buffer.set(rows);
+  }
+}
+
 template <int D>
 void OpenBoundary<D>::fill(const Rows& rows, FieldSet& particles, const Bind<D>& bind, const Ground& bed, int& next_id) {
   for (auto& buffer : buffers_) buffer.survey(bed);
   observe(rows, bind(), particles.integer("kind"), bed);
-  for (auto& buffer : buffers_) {
-    std::vector<OpenRow> observed = buffer.rows();
-    for (OpenRow& row : observed) row.still = row.wet ? row.level : row.bed;
-    buffer.set(observed);
-  }
+  take_still();
+  foresee();
   impose(0, 0);
   for (auto& buffer : buffers_) buffer.insert(particles, bind, bed, next_id);
 }
 
 template <int D>
 void OpenBoundary<D>::start(const Particles<D>& p, const Field<int>& kind, int n) {
-  for (auto& buffer : buffers_) {
-    std::vector<OpenRow> observed = buffer.rows();
-    for (OpenRow& row : observed) row.still = row.wet ? row.level : row.bed;
-    buffer.set(observed);
-  }
+  take_still();
   flow_.straddle0 = straddling(p, kind, n);
 }
 

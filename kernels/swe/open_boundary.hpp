@@ -17,9 +17,10 @@ class OpenBoundary {
  public:
   using Ground = std::optional<Bed<D>>;
 
-  // law(t): what is imposed at time t [s]. first_owner: the first of the numbers > 0 for the field kind, one per piece.
-  OpenBoundary(const std::vector<OpenLine<D>>& pieces, std::function<OpenLaw(double)> law, const OpenBufferOptions& options,
-               double gravity, int first_owner);
+  // law(t): what is imposed at time t [s]; it is linear between the times given. first_owner: the first of the numbers > 0 for
+  // the field kind, one per piece.
+  OpenBoundary(const std::vector<OpenLine<D>>& pieces, std::function<OpenLaw(double)> law, const std::vector<double>& times,
+               const OpenBufferOptions& options, double gravity, int first_owner);
 
   // Fills the buffers with the exterior state that belongs to the water as it was placed. Needs the order of the particles.
   void fill(const Rows& rows, FieldSet& particles, const Bind<D>& bind, const Ground& bed, int& next_id);
@@ -32,6 +33,9 @@ class OpenBoundary {
   // After the drift to time t: exterior states, conversions, removals, insertions. Calls bind() again after growth.
   void exchange(FieldSet& particles, const Bind<D>& bind, const Ground& bed, double t, double dt, int& next_id);
 
+  // Least time [s] in which what enters dry land crosses h: until it has entered, no particle tells the time step of it.
+  double crossing_time() const { return crossing_time_; }
+
   const OpenFlow& flow() const { return flow_; }
   double straddling(const Particles<D>& p, const Field<int>& kind, int n) const;  // m3
   int pieces() const { return static_cast<int>(buffers_.size()); }
@@ -42,10 +46,14 @@ class OpenBoundary {
  private:
   void account(const std::vector<OpenRow>& rows, double width, double dt);
   void impose(double t, double dt);
+  void foresee();
+  void take_still();
 
   std::vector<OpenBuffer<D>> buffers_;
   std::function<OpenLaw(double)> law_;
+  std::vector<double> times_;
   double gravity_;
+  double crossing_time_ = 1e300;
   OpenFlow flow_;
 };
 

@@ -63,17 +63,26 @@ OpenBuffer<D>::OpenBuffer(const OpenLine<D>& line, const OpenBufferOptions& opti
   room_ = Field<int>("open.room", size + 1);
   inner_room_ = Field<int>("open.inner_room", size);
   auto host = Kokkos::create_mirror_view(extent_);
-  for (int r = 0; r < total_; ++r) {
-    host(r) = {0, buffer_};
-    const double from_a = (r - before_ + 0.5) * width_, from_b = line.length - from_a;
-    for (const auto& [distance, spread] : {std::pair(from_a, line.spread_a), std::pair(from_b, line.spread_b)}) {
-      if (D == 1 || spread == 0) continue;
-      const double reached = -distance / spread;  // where the side of the buffer crosses the row
-      if (distance < 0) host(r).from = reached;
-      if (distance > 0 && spread < 0) host(r).to = std::min(host(r).to, reached);
-    }
-  }
+  for (int r = 0; r < total_; ++r) host(r) = extent(r);
   Kokkos::deep_copy(extent_, host);
+}
+
+// Where the sides of the buffer cross a row, on the lattice of the boundary particles: those on the side itself belong to the
+// piece that begins there.
+template <int D>
+typename OpenBuffer<D>::Extent OpenBuffer<D>::extent(int row) const {
+  constexpr double rounding = 1e-6;
+  Extent part{0, buffer_};
+  const double dx = options_.spacing, from_a = (row - before_ + 0.5) * width_, from_b = line_.length - from_a;
+  const auto cut = [&](double distance, double spread, bool at_a) {
+    if (D == 1 || spread == 0) return;
+    const double reached = -distance / spread, cell = reached / dx - 0.5;
+    if (distance < 0) part.from = dx * (at_a ? std::ceil(cell - rounding) : std::floor(cell + rounding) + 1);
+    if (distance > 0 && spread < 0) part.to = std::min(part.to, reached - (at_a ? 0 : 0.5 * dx));
+  };
+  cut(from_a, line_.spread_a, true);
+  cut(from_b, line_.spread_b, false);
+  return part;
 }
 
 template <int D>
@@ -175,7 +184,7 @@ Crossed OpenBuffer<D>::convert(FieldSet& particles, const Particles<D>& p, const
         put(f.v, i, exterior.velocity(state, at_line.line));
         put(f.v_pred, i, exterior.velocity(state, at_line.line));
         const Extent part = extent(r);
-        const bool short_of = part.from > 0 && -inside < part.from - cut;
+        const bool short_of = !at_line.on_line(r) && -inside < part.from + cut;
         if (-inside > part.to + trim || short_of || !at_line.beside(x, 1)) f.id(i) = -1;
         return in_out;
       });
@@ -208,8 +217,8 @@ void OpenBuffer<D>::insert(FieldSet& particles, const Bind<D>& bind, const std::
   Kokkos::parallel_scan("open::room", Range(0, total + 1), KOKKOS_LAMBDA(int r, int& sum, bool last) {
         if (last) room(r) = sum;
         if (r == total) return;
-        const bool wedge = extent(r).from > 0 && nearest(r) < none;  // nothing that crosses the line fills it from within
-        inner_room(r) = wedge ? static_cast<int>(larger(0.0, ::floor((nearest(r) - extent(r).from) / dx))) : 0;
+        const bool wedge = !at_line.on_line(r) && nearest(r) < none;  // nothing that crosses the line fills it from within
+        inner_room(r) = wedge ? static_cast<int>(larger(0.0, ::floor((nearest(r) - extent(r).from - 0.25 * dx) / dx))) : 0;
         sum += inner_room(r) + static_cast<int>(larger(0.0, ::floor((extent(r).to + 0.25 * dx - farthest(r)) / dx)));
       });
   Kokkos::deep_copy(added, Kokkos::subview(room, total));

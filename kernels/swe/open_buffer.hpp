@@ -65,6 +65,8 @@ class OpenBuffer {
   std::vector<OpenRow> rows() const;
   void set(const std::vector<OpenRow>& rows);
   double width() const { return width_; }  // m, of a row
+  double length() const { return D == 1 ? 1.0 : line_.length; }                      // m
+  double smoothing() const { return options_.eta * options_.spacing; }  // m, h of the boundary particles
   double least_depth() const { return 1e-6 * options_.spacing; }
 
   // Conversions across the line, removals, and the exterior state on the boundary particles; then insertions.
@@ -106,6 +108,8 @@ class OpenBuffer {
   Frame frame() const { return {line_, width_, before_, count_, total_}; }
 
  private:
+  Extent extent(int row) const;
+
   OpenLine<D> line_;
   OpenBufferOptions options_;
   int owner_;

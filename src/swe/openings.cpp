@@ -89,28 +89,31 @@ std::function<OpenLaw(double)> law_of(const Boundary& b) {
   return [level = b.level](double t) { return ImposedState{level.at(t), false}; };
 }
 
-// A wall that ends on an open line goes on beside its buffer: straight, by whole cells of the lattice that fits its length;
-// where it runs along the line, it turns outwards.
-void extend_end(Line& wall, bool front, const std::vector<Piece>& pieces, double spacing) {
-  const Point end = front ? wall.front() : wall.back(), before = front ? wall[1] : wall[wall.size() - 2];
+// When what is imposed changes its slope.
+std::vector<double> times_of(const Boundary& b) {
+  std::vector<double> times;
+  for (const Series* series : {&b.level, &b.depth, &b.velocity, &b.discharge})
+    times.insert(times.end(), series->t.begin(), series->t.end());
+  return times;
+}
+
+// A wall that ends on an open line goes on beside its buffer, by whole cells of the lattice that fits its length. One that runs
+// along the line ends there.
+void extend_end(Point& end, const Point& before, const std::vector<Piece>& pieces, double spacing) {
   for (const Piece& piece : pieces) {
     if (!meet(end, piece.a, spacing) && !meet(end, piece.b, spacing)) continue;
-    const Point direction = unit(end - before), out = outward(piece.tangent());
-    const double length = std::hypot(end[0] - before[0], end[1] - before[1]), cell = length / std::max(1.0, std::round(length / spacing));
-    const bool straight = dot(direction, out) >= least_outward;
-    const Point onwards = straight ? direction : out;
-    const double far = wall_cells * (straight ? cell : spacing);
-    const Point beyond{end[0] + far * onwards[0], end[1] + far * onwards[1]};
-    if (straight) (front ? wall.front() : wall.back()) = beyond;
-    else wall.insert(front ? wall.begin() : wall.end(), beyond);
+    const Point along = end - before;
+    if (dot(unit(along), outward(piece.tangent())) < least_outward) return;
+    const double share = wall_cells / std::max(1.0, std::round(std::hypot(along[0], along[1]) / spacing));
+    end = {end[0] + share * along[0], end[1] + share * along[1]};
     return;
   }
 }
 
 void extend_past(Line& wall, const std::vector<Piece>& pieces, double spacing) {
   if (wall.size() < 2) return;
-  extend_end(wall, true, pieces, spacing);
-  extend_end(wall, false, pieces, spacing);
+  extend_end(wall.front(), wall[1], pieces, spacing);
+  extend_end(wall.back(), wall[wall.size() - 2], pieces, spacing);
 }
 
 }  // namespace
@@ -123,8 +126,8 @@ void Solver<D>::build_boundaries() {
   for (const Boundary& b : scene_.boundaries) {
     std::vector<OpenLine<D>> lines;
     for (size_t k = 0; k + 1 < b.line.size(); ++k) lines.push_back(open_line(scene_, all, *piece++, Vec<double, D>{}));
-    boundaries_.emplace_back(lines, law_of(b), OpenBufferOptions{b.spacing > 0 ? b.spacing : scene_.water.spacing, scene_.sph.eta, friction_},
-                             scene_.gravity, owner);
+    const OpenBufferOptions options{b.spacing > 0 ? b.spacing : scene_.water.spacing, scene_.sph.eta, friction_};
+    boundaries_.emplace_back(lines, law_of(b), times_of(b), options, scene_.gravity, owner);
     owner += boundaries_.back().pieces();
   }
 }

@@ -1,5 +1,7 @@
 #include "src/swe/solver.hpp"
 
+#include <algorithm>
+
 #include "kernels/swe/lattice.hpp"
 #include "src/errors.hpp"
 
@@ -95,7 +97,9 @@ void Solver<D>::close_density(double ahead) {
 
 template <int D>
 double Solver<D>::stable_dt() const {
-  return scene_.cfl * crossing_time_;
+  double crossing = crossing_time_;
+  for (const auto& boundary : boundaries_) crossing = std::min(crossing, boundary.crossing_time());
+  return scene_.cfl * crossing;
 }
 
 template <int D>
