@@ -27,9 +27,17 @@ void fill_gaps(std::vector<OpenRow>& rows) {
   }
 }
 
-InnerState inner_state(const OpenRow& row, double least) {
+// The inner state of a row, and its slow mean taken on by dt: over the time that a wave takes to cross `memory`; anew with
+// dt = 0 and on the first water.
+InnerState inner_state(OpenRow& row, double gravity, double least, double memory, double dt) {
   const double depth = row.level - row.bed;
-  return depth > least ? InnerState{depth, row.speed} : InnerState{};
+  if (depth <= least) {
+    row.arriving = 0;
+    return {};
+  }
+  const double c = std::sqrt(gravity * depth), now = row.speed + 2 * c;
+  row.arriving = dt == 0 || row.arriving == 0 ? now : row.arriving + (1 - std::exp(-c * dt / memory)) * (now - row.arriving);
+  return {depth, row.speed, row.arriving};
 }
 
 // Share of the discharge of each row; empty where nothing is to be shared.
@@ -76,10 +84,11 @@ void OpenBoundary<D>::impose(double t, double dt) {
   fill_gaps(section.rows);
   const OpenLaw law = law_(t);
   const double least = buffers_.front().least_depth();
+  const double memory = 10 * buffers_.front().smoothing();
   const std::vector<double> share = shares(law, section, least);
   for (size_t r = 0; r < section.rows.size(); ++r) {
     OpenRow& row = section.rows[r];
-    const InnerState inner = inner_state(row, least);
+    const InnerState inner = inner_state(row, gravity_, least, memory, dt);
     set_exterior(row, inner,
                  exterior_state(law, inner, {gravity_, row.bed, row.still - row.bed, share.empty() ? 0.0 : share[r]}));
   }
@@ -169,7 +178,8 @@ namespace {
 // The doubles of a row's state, in order; visit(double&) each.
 template <class Row, class Visit>
 void each_value(Row& row, const Visit& visit) {
-  for (auto* value : {&row.bed, &row.level, &row.speed, &row.slip, &row.still, &row.depth, &row.inward, &row.along, &row.through})
+  for (auto* value : {&row.bed, &row.level, &row.speed, &row.slip, &row.still, &row.depth, &row.inward, &row.along, &row.arriving,
+                      &row.through})
     visit(*value);
 }
 

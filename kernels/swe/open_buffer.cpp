@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/swe/lattice.hpp"
-
 namespace freshet::swe {
 namespace {
 
-constexpr int columns = 5;  // of boundary particles: at least 2h
-constexpr double most_wedge = 4;  // columns: sharper mitres are cut off
+// Columns of boundary particles: the support and two more.
+double columns(const OpenBufferOptions& o) { return std::max(5.0, std::ceil(o.support * o.eta) + 2); }
+constexpr double most_wedge = 4;  // x the buffer's depth: sharper mitres are cut off
 
 template <int D>
 KOKKOS_FORCEINLINE_FUNCTION double bed_at(const std::optional<Bed<D>>& bed, const Vec<double, D>& x) {
@@ -40,15 +39,14 @@ struct Exterior {
 
 // Rows beyond an end that a widening buffer needs.
 int wedge_rows(double spread, double buffer, double width) {
-  return spread <= 0 ? 0 : static_cast<int>(std::ceil(std::min(spread * buffer / width, most_wedge * columns) - 0.5));
+  return spread <= 0 ? 0 : static_cast<int>(std::ceil(std::min(spread, most_wedge) * buffer / width - 0.5));
 }
 
 }  // namespace
 
 template <int D>
 OpenBuffer<D>::OpenBuffer(const OpenLine<D>& line, const OpenBufferOptions& options, int owner)
-    : line_(line), options_(options), owner_(owner), buffer_(columns * options.spacing),
-      summed_(lattice_sums<D>(options.eta).density) {
+    : line_(line), options_(options), owner_(owner), buffer_(columns(options) * options.spacing) {
   if (D == 2) {
     count_ = std::max(1, static_cast<int>(std::lround(line.length / options.spacing)));
     width_ = line.length / count_;
@@ -116,7 +114,7 @@ void OpenBuffer<D>::observe(const Rows& rows, const Particles<D>& p, const Field
   const auto row = row_;
   const std::optional<Bed<D>> ground = bed;
   const Particles<D> f = p;
-  const double summed = summed_;
+  const double summed = options_.summed;
   Kokkos::parallel_for("open::observe", Range(before_, before_ + count_), KOKKOS_LAMBDA(int r) {
         const Vec<double, D> here = at_line.point(r, 0);
         double y = 0;
@@ -150,7 +148,7 @@ Crossed OpenBuffer<D>::convert(FieldSet& particles, const Particles<D>& p, const
   const Exterior<D> exterior{bed, options_.friction, least_depth()};
   const Particles<D> f = p;
   const Field<int> kind = particles.integer("kind");
-  const double trim = 0.75 * options_.spacing, cut = 0.25 * options_.spacing, deepest = 2 * buffer_, summed = summed_;
+  const double trim = 0.75 * options_.spacing, cut = 0.25 * options_.spacing, deepest = 2 * buffer_, summed = options_.summed;
   const int owner = owner_;
   const auto crossed = sums_.template sum<2>("open::convert", particles.size(), KOKKOS_LAMBDA(int i) {
         Kokkos::Array<double, 2> in_out{};
@@ -226,8 +224,10 @@ void OpenBuffer<D>::insert(FieldSet& particles, const Bind<D>& bind, const std::
   particles.resize(n + added);
   const Particles<D> f = bind();
   const Field<int> new_id = particles.integer("id"), new_kind = particles.integer("kind");
+  const bool calibrated = particles.has("calibration");
+  const Field<double> calibration = calibrated ? particles.real("calibration") : Field<double>();
   const Exterior<D> exterior{bed, options_.friction, least_depth()};
-  const double area = D == 1 ? dx : dx * width_, h = options_.eta * (D == 1 ? area : root(area)), summed = summed_;
+  const double area = D == 1 ? dx : dx * width_, h = options_.eta * (D == 1 ? area : root(area)), summed = options_.summed;
   const int first_id = next_id;
   Kokkos::parallel_for("open::insert", Range(0, total), KOKKOS_LAMBDA(int r) {
         for (int k = room(r); k < room(r + 1); ++k) {
@@ -244,6 +244,7 @@ void OpenBuffer<D>::insert(FieldSet& particles, const Bind<D>& bind, const std::
           f.h0(i) = h;
           f.kh(i) = depth * power<D>(h);
           f.h(i) = smoothing_length<D>(f.kh(i), f.rho(i));
+          if (calibrated) calibration(i) = 1;
           new_id(i) = first_id + k;
           new_kind(i) = owner;
         }
@@ -259,7 +260,7 @@ double OpenBuffer<D>::straddling(const Particles<D>& p, const Field<int>& kind, 
   return sums_.template sum<1>("open::straddling", n, KOKKOS_LAMBDA(int i) {
     const Vec<double, D> x = at(f.x, i);
     const double row = at_line.along(x);
-    if ((kind(i) != 0 && kind(i) != owner) || row < -1 || row > at_line.count + 1) return Kokkos::Array<double, 1>{};
+    if ((kind(i) != 0 && kind(i) != owner) || row < 0 || row > at_line.count) return Kokkos::Array<double, 1>{};
     const double inside = at_line.inside(x), area = f.m(i) / f.rho(i), width = D == 1 ? area : root(area);
     const double across = larger(0.0, 0.5 - (inside < 0 ? -inside : inside) / width);
     return Kokkos::Array<double, 1>{(kind(i) == 0 ? -across : across) * f.m(i)};

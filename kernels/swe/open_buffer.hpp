@@ -27,6 +27,8 @@ struct OpenLine {
 struct OpenBufferOptions {
   double spacing;                    // m, of the boundary particles
   double eta;                        // h / spacing
+  double support;                    // of the kernel, x h
+  double summed;                     // what the density summation makes of a depth of 1 on a lattice
   std::optional<Friction> friction;  // the exterior flow's surface falls with it
 };
 
@@ -36,6 +38,7 @@ struct OpenRow {
   double level = 0, speed = 0, slip = 0;     // inner state: level [m], velocity inwards and along [m/s]
   double still = 0;                          // m, level of the water at rest
   double depth = 0, inward = 0, along = 0;   // exterior state: depth [m], velocity inwards and along [m/s]
+  double arriving = 0;                       // m/s, slow mean of the invariant u + 2 c of the inner state
   double through = 0;                        // m2/s, inward flow per width: across the line
   int wet = 0;                               // whether fluid was observed
   int closed = 0;                            // whether it is a wall for the fluid
@@ -114,7 +117,6 @@ class OpenBuffer {
   OpenBufferOptions options_;
   int owner_;
   double buffer_;  // m, its depth
-  double summed_;  // what the density summation makes of a depth of 1 on a lattice
   double width_ = 1;
   int before_ = 0, count_ = 1, total_ = 1;
   Kokkos::View<OpenRow*, Memory> row_;

@@ -102,7 +102,10 @@ ExteriorState ImposedState::operator()(const InnerState& inner, const OpenStrip&
   return between((outer > 0 ? inward : 0) + 2 * outer, leaving(inner, strip), strip);
 }
 
-ExteriorState Transmissive::operator()(const InnerState& inner, const OpenStrip&) const { return copied(inner); }
+ExteriorState Transmissive::operator()(const InnerState& inner, const OpenStrip& strip) const {
+  if (inner.depth <= 0 || leaves_supercritically(inner, strip)) return copied(inner);
+  return between(inner.arriving, leaving(inner, strip), strip);
+}
 
 ExteriorState exterior_state(const OpenLaw& law, const InnerState& inner, const OpenStrip& strip) {
   return std::visit([&](const auto& kind) { return kind(inner, strip); }, law);

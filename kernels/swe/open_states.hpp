@@ -13,6 +13,7 @@ namespace freshet::swe {
 struct InnerState {
   double depth = 0;   // m, 0 = dry
   double inward = 0;  // m/s
+  double arriving = 0;  // m/s, slow mean of u + 2 c
 };
 
 // One row of the line.
@@ -63,7 +64,8 @@ struct ImposedState {
   ExteriorState operator()(const InnerState& inner, const OpenStrip& strip) const;
 };
 
-// Zero gradient: the inner state goes on outside.
+// Zero gradient: what enters, u + 2 c, is that of the inner state itself, of which the slow mean keeps the scheme's own errors
+// at the line from feeding back; R leaves.
 struct Transmissive {
   ExteriorState operator()(const InnerState& inner, const OpenStrip& strip) const;
 };

@@ -1,6 +1,8 @@
 // From a scene's open boundaries and walls to the solver's: pieces, what they impose, and how walls go on beside the buffers.
+#include <algorithm>
 #include <cmath>
 
+#include "kernels/swe/lattice.hpp"
 #include "src/swe/solver.hpp"
 
 namespace freshet::swe {
@@ -116,6 +118,18 @@ void extend_past(Line& wall, const std::vector<Piece>& pieces, double spacing) {
   extend_end(wall.back(), wall[wall.size() - 2], pieces, spacing);
 }
 
+WallKind wall_kind(Walling wanted, bool exact_images) {
+  switch (wanted) {
+    case Walling::none: return WallKind::none;
+    case Walling::vbp: return WallKind::vbp;
+    case Walling::mvbp: return WallKind::mvbp;
+    case Walling::rows: return WallKind::rows;
+    case Walling::mirror: return WallKind::mirror;
+    case Walling::automatic: break;
+  }
+  return exact_images ? WallKind::mirror : WallKind::rows;
+}
+
 }  // namespace
 
 template <int D>
@@ -126,7 +140,8 @@ void Solver<D>::build_boundaries() {
   for (const Boundary& b : scene_.boundaries) {
     std::vector<OpenLine<D>> lines;
     for (size_t k = 0; k + 1 < b.line.size(); ++k) lines.push_back(open_line(scene_, all, *piece++, Vec<double, D>{}));
-    const OpenBufferOptions options{b.spacing > 0 ? b.spacing : scene_.water.spacing, scene_.sph.eta, friction_};
+    const OpenBufferOptions options{b.spacing > 0 ? b.spacing : scene_.water.spacing, scene_.sph.eta, support_,
+                                    lattice_sums<D>(scene_.sph.eta, kernel_).density, friction_};
     boundaries_.emplace_back(lines, law_of(b), times_of(b), options, scene_.gravity, owner);
     owner += boundaries_.back().pieces();
   }
@@ -144,9 +159,10 @@ void Solver<D>::build_walls() {
     if (D == 2) extend_past(lines.back(), pieces, spacing);
   }
   const Point middle{0.5 * (scene_.domain.low[0] + scene_.domain.high[0]), 0.5 * (scene_.domain.low[1] + scene_.domain.high[1])};
-  const Walling wanted = scene_.sph.walls;
-  const bool mirror = wanted == Walling::mirror || (wanted == Walling::automatic && (D == 1 || only_right_corners(lines)));
-  walls_.emplace(lines, mirror ? WallKind::mirror : WallKind::mvbp, scene_.water.spacing, middle);
+  const WallKind kind = wall_kind(scene_.sph.walls, D == 1 || only_right_corners(lines));
+  // Rows reach as deep as the support of an h half as long again as the first.
+  const double dx = scene_.water.spacing, reach = 1.5 * support_ * scene_.sph.eta * dx;
+  walls_.emplace(lines, WallOptions{kind, dx, reach, scene_.sph.slip}, middle, support_);
 }
 
 // The buffers at the start, from the water as it was placed.
@@ -154,7 +170,7 @@ template <int D>
 void Solver<D>::fill_boundaries() {
   if (boundaries_.empty()) return;
   order_.sort(particles_);
-  order_.measure_reach(particles_, particles_.real("h"), Kernel<D>::support);
+  order_.measure_reach(particles_, particles_.real("h"), support_);
   const Particles<D> p = bind();
   Kokkos::parallel_for("swe::invert_h", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) { p.inv_h(i) = 1.0 / p.h(i); });
   for (auto& boundary : boundaries_) boundary.fill(order_.rows(), particles_, [this] { return bind(); }, bed(), next_id_);

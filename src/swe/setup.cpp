@@ -93,6 +93,8 @@ void Solver<D>::make_fields() {
   if (gradient_)
     for (const char* name : {"strain_xx", "strain_xy", "strain_yy"})
       if (D == 2 || name == std::string("strain_xx")) f.real(name, "1/s", Carry::no);
+  if (depth_gradient_) vector("depth_slope_x", "depth_slope_y", "1", Carry::no);
+  if (scene_.sph.well_balanced) f.real("calibration", "1", Carry::state);
   if (bed_) f.real("bed", "m", Carry::result);
   if (friction_) f.real("drag", "1/m", Carry::result);
   if (!boundaries_.empty()) f.integer("kind", "1", Carry::state);
@@ -122,6 +124,7 @@ Particles<D> Solver<D>::bind() const {
   p.signal = f.real("signal");
   p.id = f.integer("id");
   if (gradient_) p.strain = strain_field(f, dimension);
+  if (depth_gradient_) p.depth_slope = vector_field(f, "depth_slope_x", "depth_slope_y", dimension);
   return p;
 }
 
