@@ -42,6 +42,7 @@ void read_sections(Table& root, Scene& scene) {
   read_each(root, "wall", scene, read_wall);
   read_each(root, "gauge", scene, read_gauge);
   read_each(root, "runup", scene, read_run_up);
+  read_each(root, "profile", scene, read_profile);
   read_output(output, scene);
   read_limits(limits, scene);
 }
