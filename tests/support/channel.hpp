@@ -14,6 +14,7 @@ struct Channel {
   int cells;
   double gravity, manning;               // m/s2, s/m^(1/3)
   std::function<double(double)> bed, depth, speed;  // m, m at t = 0, m/s at t = 0 (absent = at rest)
+  std::function<double(double)> inflow{};           // m2/s into the low end, as a function of t; enters at critical depth
 };
 
 class ChannelFlow {
@@ -32,6 +33,13 @@ class ChannelFlow {
   double depth(double place) const { return between(now_.depth, place); }
   double discharge(double place) const { return between(now_.discharge, place); }  // m2/s
   double level(double place) const { return depth(place) + between(bed_, place); }  // m
+  // Water beyond a place [m2].
+  double volume_beyond(double place) const {
+    double sum = 0;
+    for (int i = 0; i < c_.cells; ++i)
+      if (x(i) > place) sum += now_.depth[at(i)] * dx_;
+    return sum;
+  }
   // Highest bed level [m] under more than `least` of water.
   double highest_wet_bed(double least) const {
     double highest = -1e300;
@@ -43,6 +51,7 @@ class ChannelFlow {
   // One step, but not beyond `end`.
   void step(double end) {
     const double dt = std::min(0.4 * dx_ / fastest(), end - t_);
+    feed_ = c_.inflow ? c_.inflow(t_) : 0;
     ahead_ = now_;
     advance(ahead_, dt);
     advance(ahead_, dt);
@@ -84,7 +93,7 @@ class ChannelFlow {
   static double speed(double depth, double discharge) { return depth > dry ? discharge / depth : 0; }
 
   double fastest() const {
-    double most = 1e-9;
+    double most = c_.inflow ? 5.0 : 1e-9;  // m/s: a dry channel must notice that inflow begins
     for (std::size_t i = 0; i < size(); ++i)
       most = std::max(most, std::abs(speed(now_.depth[i], now_.discharge[i])) + std::sqrt(c_.gravity * now_.depth[i]));
     return most;
@@ -111,10 +120,19 @@ class ChannelFlow {
             (sr * l.momentum - sl * r.momentum + sl * sr * (dr * ur - dl * ul)) / width};
   }
 
+  // The state before the low end where water is let in.
+  void feed(Water& w) const {
+    for (int k = 0; k < ghosts; ++k) {
+      w.depth[at(-1 - k)] = std::cbrt(feed_ * feed_ / c_.gravity);
+      w.discharge[at(-1 - k)] = feed_;
+    }
+  }
+
   // What the water at hand looks like at the sides of its cells.
   void look(Water& w) {
     reflect(w.depth, 1);
     reflect(w.discharge, -1);
+    if (feed_ > 0) feed(w);
     for (std::size_t i = 0; i < size(); ++i) {
       velocity_[i] = speed(w.depth[i], w.discharge[i]);
       surface_[i] = w.depth[i] + bed_[i];
@@ -140,7 +158,8 @@ class ChannelFlow {
   void cross(std::size_t l, std::size_t r, Water& w, double ratio) const {
     const double bed = std::max(z_.right[l] - d_.right[l], z_.left[r] - d_.left[r]), half_g = 0.5 * c_.gravity;
     const double dl = std::max(0.0, z_.right[l] - bed), dr = std::max(0.0, z_.left[r] - bed);
-    const Flux flux = hll(dl, u_.right[l], dr, u_.left[r]);
+    Flux flux = hll(dl, u_.right[l], dr, u_.left[r]);
+    if (feed_ > 0 && r == at(0)) flux.mass = feed_;
     w.depth[l] -= ratio * flux.mass;
     w.depth[r] += ratio * flux.mass;
     w.discharge[l] -= ratio * (flux.momentum + half_g * (d_.right[l] * d_.right[l] - dl * dl));
@@ -155,7 +174,7 @@ class ChannelFlow {
   }
 
   Channel c_;
-  double dx_, t_ = 0;
+  double dx_, t_ = 0, feed_ = 0;
   Cells bed_, velocity_, surface_;
   Water now_, ahead_;
   Sides d_, u_, z_;  // depth, velocity, surface

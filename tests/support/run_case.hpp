@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "build_info.hpp"
+#include "src/io/fluid.hpp"
 #include "src/method.hpp"
 #include "src/run/driver.hpp"
 #include "src/run/gauge_stats.hpp"
@@ -21,6 +22,15 @@ inline Scene read_case(const std::string& name, const std::vector<std::string>& 
 struct CaseRun {
   Summary summary;
   std::vector<Series> gauges;  // m, elevations in the order of the scene
+  Fluid fluid;                 // at the end
+
+  template <class Where>
+  double mass_where(const Where& where) const {  // m3
+    double sum = 0;
+    for (std::size_t i = 0; i < fluid.size(); ++i)
+      if (where(fluid.x[i], fluid.y[i])) sum += fluid.mass[i];
+    return sum;
+  }
 };
 
 inline CaseRun run_case_keeping_gauges(const std::string& name, const std::vector<std::string>& overrides = {}) {
@@ -32,7 +42,7 @@ inline CaseRun run_case_keeping_gauges(const std::string& name, const std::vecto
   Driver driver(scene, *method, options);
   driver.begin();
   driver.run();
-  CaseRun run{driver.summary(), {}};
+  CaseRun run{driver.summary(), {}, fluid_on_host(method->fields())};
   for (std::size_t g = 0; g < scene.gauges.size(); ++g) run.gauges.push_back(gauge_series(driver.gauge_rows(), g));
   return run;
 }
