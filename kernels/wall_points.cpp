@@ -9,7 +9,7 @@ namespace {
 constexpr double small_turn = 0.5;  // rad: below it two pieces are one curve, not a corner
 
 WallSegment segment_between(const std::array<double, 2>& a, const std::array<double, 2>& b) {
-  WallSegment s{{a[0], a[1]}, {b[0], b[1]}, {}, {}, std::hypot(b[0] - a[0], b[1] - a[1]), 0, 0, -1};
+  WallSegment s{{a[0], a[1]}, {b[0], b[1]}, {}, {}, std::hypot(b[0] - a[0], b[1] - a[1]), 0, 0, 0, 0, -1};
   for (int k = 0; k < 2; ++k) s.tangent[k] = (s.b[k] - s.a[k]) / s.length;
   s.normal[0] = -s.tangent[1];
   s.normal[1] = s.tangent[0];
@@ -62,7 +62,7 @@ struct Chain {
 // Corners of less than 180 degrees: images of one wall are seen beyond the corner, and in both walls together.
 void join_corner(std::vector<WallSegment>& all, int k, int next, double step) {
   if (turn_between(all[k], all[next]) <= 1e-9) return;
-  all[k].after = all[next].before = 4 * step;
+  all[k].after = all[k].see_b = all[next].before = all[next].see_a = 4 * step;
   all[k].next = next;
 }
 
@@ -135,7 +135,7 @@ WallGeometry lay_ends(const std::vector<WallLine>& lines, const WallOptions& o, 
         g.points.push_back({{x - side * depth, 0}, {1, 0, 0}, o.spacing, segment});
     else
       g.points.push_back({{x, 0}, {1, 0, 0}, 1, segment});
-    g.segments.push_back({{x, 0}, {x, 0}, {0, 0}, {side, 0}, 0, 0, 0, -1});
+    g.segments.push_back({{x, 0}, {x, 0}, {0, 0}, {side, 0}, 0, 0, 0, 0, 0, -1});
   }
   return g;
 }
@@ -147,6 +147,8 @@ WallGeometry lay_lines(const std::vector<WallLine>& lines, const WallOptions& o)
     const bool closed = line.size() > 2 && std::hypot(line.front()[0] - line.back()[0], line.front()[1] - line.back()[1]) < 1e-6 * o.spacing;
     chains.push_back({static_cast<int>(g.segments.size()), static_cast<int>(line.size()) - 1, closed});
     for (size_t k = 0; k + 1 < line.size(); ++k) g.segments.push_back(segment_between(line[k], line[k + 1]));
+    if (closed || line.size() < 2) continue;
+    g.segments[static_cast<size_t>(chains.back().first)].see_a = g.segments.back().see_b = free_end;
   }
   for (const Chain& chain : chains) {
     if (o.kind != WallKind::rows) lay_face(g.segments, chain, o.spacing, o.kind != WallKind::vbp, g.points);

@@ -16,8 +16,10 @@ struct WallSegment {
   double normal[2];      // unit, towards the water
   double length;         // m
   double before, after;  // m, how far beyond a and b its images still count: behind corners of less than 180 degrees
+  double see_a, see_b;   // m, how far beyond a and b they are seen: free_end where the wall ends and an opening begins
   int next;              // the segment behind the corner of less than 180 degrees at b; -1 if there is none
 };
+constexpr double free_end = 1e300;  // m
 
 struct WallPoint {
   double x[2];   // m

@@ -74,7 +74,7 @@ namespace {
 
 // A segment as a position sees it.
 struct Side {
-  double distance2;  // m2, to its nearest point
+  double distance2;  // m2, to its nearest point; huge beyond a free end, which no position is behind
   double inside;     // m, on the water's side of its line
 };
 
@@ -84,9 +84,10 @@ KOKKOS_INLINE_FUNCTION Side side_of(const WallSegment& s, const Vec<double, 1>& 
 }
 KOKKOS_INLINE_FUNCTION Side side_of(const WallSegment& s, const Vec<double, 2>& p) {
   const double rx = p.x - s.a[0], ry = p.y - s.a[1];
-  const double along = clamp(rx * s.tangent[0] + ry * s.tangent[1], 0.0, s.length);
+  const double foot = rx * s.tangent[0] + ry * s.tangent[1], along = clamp(foot, 0.0, s.length);
   const double dx = rx - along * s.tangent[0], dy = ry - along * s.tangent[1];
-  return {dx * dx + dy * dy, rx * s.normal[0] + ry * s.normal[1]};
+  const bool beyond = (foot < 0 && s.see_a == free_end) || (foot > s.length && s.see_b == free_end);
+  return {beyond ? free_end : dx * dx + dy * dy, rx * s.normal[0] + ry * s.normal[1]};
 }
 
 template <int D>

@@ -89,14 +89,22 @@ struct WallView {
   // Whether the virtual masses follow the particle's own depth.
   KOKKOS_FORCEINLINE_FUNCTION bool follows_depth() const { return on && rows; }
 
-  // 1 in the lanes that stand before the segment itself, not beside it.
+  // 1 in the lanes that see the images behind the segment.
   KOKKOS_FORCEINLINE_FUNCTION static Lane before(const WallSegment&, const Vec<Lane, 1>&) { return 1.0; }
   KOKKOS_FORCEINLINE_FUNCTION static Lane before(const WallSegment& s, const Vec<Lane, 2>& x) {
     const Lane along = (x.x - s.a[0]) * s.tangent[0] + (x.y - s.a[1]) * s.tangent[1];
-    return select((Lane(-s.before) < along) & (along < Lane(s.length + s.after)), Lane(1.0), Lane(0.0));
+    return select((Lane(-s.see_a) < along) & (along < Lane(s.length + s.see_b)), Lane(1.0), Lane(0.0));
   }
 
-  // mirror: calls see(image, weight) for the images of a cluster in the walls near it; weight is 0 in lanes without one.
+  // Whether a particle has an image in the segment: it stands on the water's side, not beside it (in an opening next to it).
+  KOKKOS_FORCEINLINE_FUNCTION static bool mirrors(const WallSegment&, const Vec<double, 1>&) { return true; }
+  KOKKOS_FORCEINLINE_FUNCTION static bool mirrors(const WallSegment& s, const Vec<double, 2>& x) {
+    const double dx = x.x - s.a[0], dy = x.y - s.a[1], along = dx * s.tangent[0] + dy * s.tangent[1];
+    return dx * s.normal[0] + dy * s.normal[1] > 0 && along > -s.before && along < s.length + s.after;
+  }
+
+  // mirror: calls see(image, weight, segment) for the images of a cluster in the walls near it; weight is 0 in lanes without
+  // one. The image sees the particles that the segment mirrors.
   template <class See>
   KOKKOS_INLINE_FUNCTION void for_each_image(int cluster, const Vec<Lane, D>& here, const See& see) const {
     constexpr int most = 4;  // more pieces of wall do not meet within a support
@@ -110,9 +118,9 @@ struct WallView {
       const WallSegment s = segments(found[a]);
       const Image<D> image(s);
       const Lane weight = before(s, here);
-      see(image, weight);
+      see(image, weight, s);
       for (int b = 0; b < n; ++b)
-        if (found[b] == s.next) see(image.then(Image<D>(segments(s.next))), weight * before(segments(s.next), here));
+        if (found[b] == s.next) see(image.then(Image<D>(segments(s.next))), weight * before(segments(s.next), here), s);
     }
   }
 };

@@ -98,10 +98,11 @@ struct SumDensity {
   // What the neighbours' images add: the cluster's own image sees the neighbours.
   KOKKOS_INLINE_FUNCTION void add_images(int c, const Here<D>& i, Lane inv_h, WallSums<Lane, D>& wall) const {
     const Lane per_volume = power<D>(inv_h);
-    walls.for_each_image(c, i.x, [&](const Image<D>& image, Lane weight) {
+    walls.for_each_image(c, i.x, [&](const Image<D>& image, Lane weight, const WallSegment& segment) {
       const Vec<Lane, D> x_image = image(i.x), v_image = image.turn(i.v);
       Sums<D> s;
       near.for_each(c, [&](int j) {
+        if (!walls.mirrors(segment, at(p.x, j))) return;
         add_pair<true>(kernel, broadcast(at(p.x, j)) - x_image, broadcast(at(p.v_pred, j)) - v_image, Lane(p.m(j)), inv_h, s);
       });
       wall.density += weight * per_volume * s.density;

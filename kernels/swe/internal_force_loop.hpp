@@ -58,14 +58,16 @@ struct InternalForce {
 
   // The force of the neighbours' images: what i's image feels from the neighbours, mirrored back.
   KOKKOS_INLINE_FUNCTION void add_images(int c, const Here<D>& i, ForceSums<D>& sum) const {
-    walls.for_each_image(c, i.x, [&](const Image<D>& image, Lane weight) {
+    walls.for_each_image(c, i.x, [&](const Image<D>& image, Lane weight, const WallSegment& segment) {
       Here<D> other = i;
       other.x = image(i.x);
       other.v = image.turn(i.v);
       if constexpr (Stabilise::velocity_gradient) other.strain = image.turn(i.strain);
       if constexpr (Stabilise::depth_gradient) other.depth_slope = image.turn(i.depth_slope);
       ForceSums<D> felt;
-      near.for_each(c, [&](int j) { add_pair(other, j, felt); });
+      near.for_each(c, [&](int j) {
+        if (walls.mirrors(segment, at(p.x, j))) add_pair(other, j, felt);
+      });
       sum.t += weight * image.turn_back(felt.t);
       sum.signal = larger(sum.signal, weight * felt.signal);
     });

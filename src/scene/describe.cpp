@@ -47,16 +47,34 @@ std::string water(const Scene& scene) {
   return out + (water.velocity[0] ? ", moving" : ", at rest");
 }
 
+std::string imposed(const std::string& what, const Series& series, const std::string& unit) {
+  if (series.t.empty()) return "";
+  if (series.t.size() == 1) return ", " + what + ' ' + brief(series.value[0]) + ' ' + unit;
+  const auto range = std::minmax_element(series.value.begin(), series.value.end());
+  return ", " + counted(series.t.size(), "row") + ", t " + brief(series.t.front()) + " to " + brief(series.t.back()) + " s, " +
+         what + ' ' + brief(*range.first) + " to " + brief(*range.second) + ' ' + unit;
+}
+
+std::string kind_of(const OpenBoundary& boundary) {
+  switch (boundary.kind) {
+    case OpenBoundary::Kind::wave: return "incoming wave";
+    case OpenBoundary::Kind::velocity: return "imposed velocity";
+    case OpenBoundary::Kind::discharge:
+      return boundary.by_width ? "imposed discharge by width" : "imposed discharge by conveyance";
+    case OpenBoundary::Kind::state: return "imposed state";
+    case OpenBoundary::Kind::transmissive: return "transmissive";
+    default: return "imposed elevation";
+  }
+}
+
 std::string boundary(const OpenBoundary& boundary, const Domain& domain) {
-  const bool wave = boundary.kind == OpenBoundary::Kind::wave;
-  std::string out = boundary.name + ": " + (wave ? "incoming wave" : "imposed elevation") + ", ";
-  out += domain.dimension == 1 ? point(boundary.line[0], domain)
-                               : point(boundary.line[0], domain) + " to " + point(boundary.line[1], domain);
-  const Series& level = boundary.level;
-  if (level.t.size() == 1) return out + ", level " + brief(level.value[0]) + " m";
-  const auto range = std::minmax_element(level.value.begin(), level.value.end());
-  return out + ", " + counted(level.t.size(), "row") + ", t " + brief(level.t.front()) + " to " +
-         brief(level.t.back()) + " s, level " + brief(*range.first) + " to " + brief(*range.second) + " m";
+  std::string out = boundary.name + ": " + kind_of(boundary) + ", ";
+  const std::size_t points = domain.dimension == 1 ? 1 : boundary.line.size();
+  for (std::size_t k = 0; k < points; ++k) out += (k > 0 ? " to " : "") + point(boundary.line[k], domain);
+  out += imposed("level", boundary.level, "m") + imposed("depth", boundary.depth, "m") +
+         imposed("velocity", boundary.velocity, "m/s") +
+         imposed("discharge", boundary.discharge, domain.dimension == 1 ? "m2/s" : "m3/s");
+  return boundary.spacing > 0 ? out + ", spacing " + brief(boundary.spacing) + " m" : out;
 }
 
 std::string gauge(const Gauge& gauge, const Domain& domain) {

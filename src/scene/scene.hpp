@@ -56,12 +56,18 @@ struct Wall {
 
 struct OpenBoundary {
   std::string name;
-  // m; the water is on its left. 1-D: (x, 1), (x, 0) at the left end and (x, 0), (x, 1) at the right end.
-  std::array<Point, 2> line{};
-  enum class Kind { elevation, wave } kind = Kind::elevation;
+  // m, two points or more (no sharp bends); the water is on its left. 1-D: (x, 1), (x, 0) at the left end and (x, 0), (x, 1) at
+  // the right end.
+  std::vector<Point> line;
   // elevation: total free-surface level imposed, outgoing invariant kept (thesis 4.2).
   // wave: level of the incoming wave alone; outgoing waves leave.
-  Series level;  // m
+  // velocity: inward normal velocity. discharge: total inward discharge of the line. state: level or depth and inward velocity.
+  // transmissive: what arrives leaves, against still water at `level` where it is given, else by zero gradient.
+  enum class Kind { elevation, wave, velocity, discharge, state, transmissive } kind = Kind::elevation;
+  Series level{}, depth{};        // m; no entries where not imposed
+  Series velocity{}, discharge{};  // m/s, m3/s (1-D: m2/s), inwards
+  bool by_width = false;         // discharge: distributed equally along the line, else by conveyance
+  double spacing = 0;            // m, of the boundary particles; 0 = as the water
 };
 
 struct Gauge {

@@ -1,5 +1,7 @@
 #include "src/swe/solver.hpp"
 
+#include <algorithm>
+
 #include "kernels/swe/depth_gradient.hpp"
 #include "kernels/swe/lattice.hpp"
 #include "kernels/swe/well_balanced.hpp"
@@ -40,7 +42,7 @@ Solver<D>::Solver(const Scene& scene)
   build_boundaries();
   build_walls();
   place_particles();
-  for (auto& boundary : boundaries_) boundary.fill(particles_, [this] { return bind(); }, bed(), next_id_);
+  fill_boundaries();
   find_neighbours();
   if (scene_.sph.well_balanced)
     calibrate_density<D>(kernel_, clusters_, neighbours_.view(), wall_view(), bind(), particles_.real("calibration"));
@@ -110,7 +112,9 @@ void Solver<D>::close_density(double ahead) {
 
 template <int D>
 double Solver<D>::stable_dt() const {
-  return scene_.cfl * crossing_time_;
+  double crossing = crossing_time_;
+  for (const auto& boundary : boundaries_) crossing = std::min(crossing, boundary.crossing_time());
+  return scene_.cfl * crossing;
 }
 
 template <int D>

@@ -38,6 +38,7 @@ class Solver : public Method {
   void build_walls();
   void build_boundaries();
   Function initial_depth() const;
+  void fill_boundaries();
   void place_particles();
   void make_fields();
   Particles<D> bind() const;
