@@ -1,6 +1,7 @@
 // [compare]: the exact solution and how the errors against it are measured.
 #include <cmath>
 
+#include "src/reference/bump.hpp"
 #include "src/reference/exact.hpp"
 #include "src/scene/sections.hpp"
 
@@ -62,13 +63,25 @@ Solution read_rest(Table& table, const Scene& scene) {
   return {still_water(level, scene.bed.elevation), "level " + shown(level) + " m"};
 }
 
+Solution read_bump(Table& table, const Scene& scene) {
+  const Bump bump{table.number("height", "m").positive().required(1), table.number("at", "m").required(),
+                  table.number("half_width", "m").positive().required(1)};
+  const BumpFlow flow{table.number("velocity", "m/s").positive().required(1),
+                      table.number("inflow_depth", "m").positive().optional(),
+                      table.number("outflow_depth", "m").positive().optional()};
+  const auto exact = std::make_shared<SteadyBumpFlow>(bump, flow, scene.gravity);
+  const std::string jump = exact->jump() ? ", jump at x = " + rounded(*exact->jump()) + " m" : "";
+  return {exact, "q = " + rounded(exact->discharge()) + " m2/s" + jump};
+}
+
 Solution read_exact(Table& table, const Scene& scene) {
   using Reader = Solution (*)(Table&, const Scene&);
   const Reader reader = table
                             .choice<Reader>("type", {{"stoker", read_stoker},
                                                      {"thacker-planar", read_planar},
                                                      {"thacker-radial", read_radial},
-                                                     {"rest", read_rest}})
+                                                     {"rest", read_rest},
+                                                     {"bump", read_bump}})
                             .required();
   if (!reader) {
     table.accept_rest();
