@@ -13,13 +13,13 @@ namespace {
 struct Span {
   double first, last;  // m, places of the line's ends
 };
-Span span(const Profile& p) {
+Span span(const Transect& p) {
   const double length = std::hypot(p.line[1][0] - p.line[0][0], p.line[1][1] - p.line[0][1]);
   return p.one_dimensional ? Span{std::min(p.line[0][0], p.line[1][0]), std::max(p.line[0][0], p.line[1][0])} : Span{0, length};
 }
 
 // The places of the measured points that lie on the line.
-std::vector<std::size_t> measured_on_line(const Profile& p) {
+std::vector<std::size_t> measured_on_line(const Transect& p) {
   std::vector<std::size_t> found;
   const Span on = span(p);
   for (std::size_t k = 0; p.measured && k < p.measured->t.size(); ++k)
@@ -31,7 +31,7 @@ std::vector<std::size_t> measured_on_line(const Profile& p) {
 
 std::vector<double> profile_times(const Scene& scene) {
   std::vector<double> times;
-  for (const Profile& profile : scene.profiles) times.push_back(profile.time);
+  for (const Transect& profile : scene.profiles) times.push_back(profile.time);
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;
@@ -40,7 +40,7 @@ std::vector<double> profile_times(const Scene& scene) {
 ProfileRecorder::ProfileRecorder(const Scene& scene, std::string path)
     : profiles_(scene.profiles), taken_(scene.profiles.size()), path_(std::move(path)) {}
 
-std::vector<double> ProfileRecorder::places(const Profile& profile) const {
+std::vector<double> ProfileRecorder::places(const Transect& profile) const {
   const Span on = span(profile);
   const int intervals = std::max(1, static_cast<int>(std::lround((on.last - on.first) / profile.spacing)));
   std::vector<double> places;

@@ -28,10 +28,10 @@ class ProfileRecorder {
   struct Taken {
     std::vector<double> elevation, depth;  // m, at places(); empty = not yet
   };
-  std::vector<double> places(const Profile& profile) const;  // m, the written points, then the measured ones on the line
+  std::vector<double> places(const Transect& profile) const;  // m, the written points, then the measured ones on the line
   void write() const;
 
-  std::vector<Profile> profiles_;
+  std::vector<Transect> profiles_;
   std::vector<Taken> taken_;
   std::string path_;
 };

@@ -88,7 +88,7 @@ void read_run_up(Table& section, Scene& scene) {
 }
 
 void read_profile(Table& section, Scene& scene) {
-  Profile profile;
+  Transect profile;
   profile.name = section.text("name").required();
   require_new_name(section, scene.profiles, profile.name);
   profile.line = read_profile_line(section, scene);

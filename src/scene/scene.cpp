@@ -15,7 +15,7 @@ double Series::at(double time) const {
   return value[i - 1] + part * (value[i] - value[i - 1]);
 }
 
-Point Profile::at(double place) const {
+Point Transect::at(double place) const {
   if (one_dimensional) return {place, 0};
   const double dx = line[1][0] - line[0][0], dy = line[1][1] - line[0][1], part = place / std::hypot(dx, dy);
   return {line[0][0] + part * dx, line[0][1] + part * dy};

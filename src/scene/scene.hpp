@@ -87,7 +87,7 @@ struct RunUp {
 };
 
 // The surface along a line at one time.
-struct Profile {
+struct Transect {
   std::string name;
   std::array<Point, 2> line{};     // m, from and to
   bool one_dimensional = false;
@@ -155,7 +155,7 @@ struct Scene {
   std::vector<OpenBoundary> boundaries;
   std::vector<Gauge> gauges;
   std::vector<RunUp> run_ups;
-  std::vector<Profile> profiles;
+  std::vector<Transect> profiles;
   Sph sph;
   Compare compare;
   Output output;

@@ -24,14 +24,14 @@ class Slope : public test::FakeMethod {
   }
 };
 
-Scene scene_with(const Profile& profile) {
+Scene scene_with(const Transect& profile) {
   Scene scene = test::fake_scene(2);
   scene.profiles = {profile};
   return scene;
 }
 
-Profile diagonal() {
-  Profile p;
+Transect diagonal() {
+  Transect p;
   p.name = "a";
   p.line = {{{0, 0}, {0.6, 0.8}}};
   p.spacing = 0.5;
@@ -43,7 +43,7 @@ Profile diagonal() {
 
 TEST_CASE("a profile lists the points of its line and the error at the measured ones") {
   const test::Scratch scratch;
-  Profile p = diagonal();
+  Transect p = diagonal();
   p.measured = Series{{-0.1, 0.25, 0.75, 1.1}, {9, 2.015 + 0.03, 2.045 - 0.04, 9}};  // the first and the last lie beyond the line
   const Scene scene = scene_with(p);
   const Slope method(scene);
@@ -65,7 +65,7 @@ TEST_CASE("a profile lists the points of its line and the error at the measured 
 
 TEST_CASE("steps end on the times of profiles and a restart keeps what was taken") {
   const test::Scratch scratch;
-  Profile late = diagonal(), early = diagonal();
+  Transect late = diagonal(), early = diagonal();
   early.name = "b";
   early.time = 0.1;
   Scene scene = scene_with(late);
