@@ -35,6 +35,16 @@ void write(JsonWriter& out, const GaugeResult& gauge) {
       .end();
 }
 
+void write(JsonWriter& out, const ProfileResult& profile) {
+  out.begin(profile.name)
+      .value("time", profile.time)
+      .value("rmse", profile.rmse)
+      .value("max_abs_error", profile.max_abs_error)
+      .value("measured_range", profile.measured_range)
+      .value("points", profile.points)
+      .end();
+}
+
 void write(JsonWriter& out, const ErrorNorms& errors) {
   out.begin("errors")
       .value("depth_l1_rel", errors.depth_l1_rel)
@@ -80,6 +90,14 @@ void print_run_ups(std::FILE* out, const std::vector<RunUpResult>& run_ups) {
   }
 }
 
+void print_profiles(std::FILE* out, const std::vector<ProfileResult>& profiles) {
+  std::fprintf(out, "\n%-12s %8s %8s %8s %12s %7s\n", "profile", "at [s]", "rmse", "max", "range [mm]", "points");
+  for (const auto& p : profiles)
+    std::fprintf(out, "%-12s %8s %8s %8s %12s %7d\n", p.name.c_str(), cell(p.time, 1, "%.2f").c_str(),
+                 cell(p.rmse, 1e-3, "%.2f").c_str(), cell(p.max_abs_error, 1e-3, "%.2f").c_str(),
+                 cell(p.measured_range, 1e-3, "%.2f").c_str(), p.points);
+}
+
 void print_errors(std::FILE* out, const ErrorNorms& e) {
   std::fprintf(
       out,
@@ -104,6 +122,11 @@ std::string json(const Summary& s) {
   out.end().begin("runup");
   for (const auto& run_up : s.run_ups) out.value(run_up.name, run_up.highest);
   out.end();
+  if (!s.profiles.empty()) {
+    out.begin("profiles");
+    for (const auto& profile : s.profiles) write(out, profile);
+    out.end();
+  }
   if (s.compared) write(out, s.errors);
   return out.end().text() + "\n";
 }
@@ -111,6 +134,7 @@ std::string json(const Summary& s) {
 void print_tables(std::FILE* out, const Summary& s) {
   if (!s.gauges.empty()) print_gauges(out, s.gauges);
   if (!s.run_ups.empty()) print_run_ups(out, s.run_ups);
+  if (!s.profiles.empty()) print_profiles(out, s.profiles);
   if (s.compared) print_errors(out, s.errors);
   std::fprintf(
       out,

@@ -27,6 +27,14 @@ struct RunUpResult {
   std::pair<double, double> measured{unknown, unknown};  // m, lowest and highest
 };
 
+struct ProfileResult {
+  std::string name;
+  double time = unknown;                               // s
+  double rmse = unknown, max_abs_error = unknown;      // m, over the measured points on the line
+  double measured_range = unknown;                     // m, highest less lowest of them
+  int points = 0;
+};
+
 struct ErrorNorms {
   double depth_l1_rel = unknown, depth_l2_rel = unknown, grid_l2_rel = unknown;
   double depth_linf = unknown;   // m
@@ -50,6 +58,7 @@ struct Summary {
   MassBalance mass;
   std::vector<GaugeResult> gauges;
   std::vector<RunUpResult> run_ups;
+  std::vector<ProfileResult> profiles;
   bool compared = false;  // the scene names an exact solution
   ErrorNorms errors;
 };

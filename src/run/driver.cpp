@@ -31,6 +31,7 @@ Driver::Driver(const Scene& scene, Method& method, RunOptions options)
       monitor_(scene),
       gauges_(scene, inside(options_.directory, "gauges.csv")),
       run_ups_(scene.run_ups),
+      profiles_(scene, inside(options_.directory, "profiles.csv")),
       particles_(inside(options_.directory, "particles.h5part")),
       progress_(options_.progress, options_.terminal, 0, scene.end_time) {}
 
@@ -79,6 +80,7 @@ void Driver::fire_events() {
   for (; events_.comparisons.due(clock_.t); events_.comparisons.advance()) {
     l1_samples_.push_back(depth_l1(scene_, fluid_on_host(method_.fields()), clock_.t));
   }
+  for (; events_.profiles.due(clock_.t); events_.profiles.advance()) profiles_.record(method_, clock_.t);
   if (events_.outputs.due(clock_.t)) {
     monitor_.check_all(method_, clock_);
     write_particles();
@@ -131,6 +133,7 @@ Values Driver::run_values() const {
   values["effort"] = {wall(), earlier_particle_steps_ + progress_.particle_steps()};
   gauges_.save(values);
   run_ups_.save(values);
+  profiles_.save(values);
   return values;
 }
 
@@ -146,6 +149,8 @@ void Driver::restore(const Checkpoint& checkpoint) {
   earlier_particle_steps_ = run.at("effort").at(1);
   gauges_.restore(run);
   run_ups_.restore(run);
+  profiles_.restore(run);
+  while (events_.profiles.due(clock_.t)) events_.profiles.advance();
   if (std::filesystem::exists(inside(options_.directory, "particles.h5part"))) {
     particles_.truncate(static_cast<int>(events_.outputs.done()));
   } else {
@@ -212,6 +217,7 @@ Summary Driver::summary() const {
   s.mass = mass_balance();
   s.gauges = gauge_results();
   s.run_ups = run_up_results();
+  s.profiles = profiles_.results();
   s.compared = scene_.compare.exact != nullptr;
   if (s.compared) s.errors = errors();
   return s;

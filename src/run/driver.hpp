@@ -9,6 +9,7 @@
 #include "src/io/h5part.hpp"
 #include "src/io/summary.hpp"
 #include "src/run/monitor.hpp"
+#include "src/run/profiles.hpp"
 #include "src/run/progress.hpp"
 #include "src/run/stations.hpp"
 
@@ -33,6 +34,7 @@ class Driver {
   bool run();
   const Clock& clock() const { return clock_; }
   Summary summary() const;
+  const std::vector<GaugeRow>& gauge_rows() const { return gauges_.rows(); }
 
  private:
   void step();
@@ -56,6 +58,7 @@ class Driver {
   Monitor monitor_;
   GaugeRecorder gauges_;
   RunUpRecorder run_ups_;
+  ProfileRecorder profiles_;
   ParticleFile particles_;
   Progress progress_;
   std::vector<double> l1_samples_;  // depth_l1_rel at the comparison times

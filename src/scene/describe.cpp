@@ -92,6 +92,15 @@ std::string run_up(const RunUp& run_up, const Domain& domain) {
   return out + ", measured " + brief((*run_up.measured)[0]) + " to " + brief((*run_up.measured)[1]) + " m";
 }
 
+std::string profile(const Transect& profile, const Domain& domain) {
+  std::string out = profile.name + " from " + point(profile.line[0], domain) + " to " + point(profile.line[1], domain);
+  out += " at t = " + brief(profile.time) + " s";
+  if (!profile.measured) return out;
+  const Series& measured = *profile.measured;
+  return out + ", measured " + counted(measured.t.size(), "row") + " from " + brief(measured.t.front()) + " to " +
+         brief(measured.t.back()) + " m";
+}
+
 std::string numerics(const Scene& scene) {
   const Sph& sph = scene.sph;
   std::string out = scene.method + ", " + name_in(kernel_names(), sph.kernel) + " kernel" +
@@ -136,6 +145,7 @@ std::vector<std::string> describe(const Scene& scene) {
   for (const OpenBoundary& b : scene.boundaries) add("boundary", boundary(b, scene.domain));
   for (const Gauge& g : scene.gauges) add("gauge", gauge(g, scene.domain));
   for (const RunUp& r : scene.run_ups) add("run-up", run_up(r, scene.domain));
+  for (const Transect& p : scene.profiles) add("profile", profile(p, scene.domain));
   add("time", "0 to " + brief(scene.end_time) + " s");
   add("method", numerics(scene));
   add("output", output(scene));

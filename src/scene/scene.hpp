@@ -86,6 +86,17 @@ struct RunUp {
   std::optional<std::array<double, 2>> measured;  // m, lowest and highest
 };
 
+// The surface along a line at one time.
+struct Transect {
+  std::string name;
+  std::array<Point, 2> line{};     // m, from and to
+  bool one_dimensional = false;
+  double time = 0;                 // s
+  double spacing = 0;              // m, of the points that are written
+  std::optional<Series> measured;  // free-surface elevation [m] over the place on the line [m]: 1-D x, 2-D distance from line[0]
+  Point at(double place) const;    // the point of the line there
+};
+
 enum class Stabilisation { none, artificial_viscosity, lax_friedrichs, lax_friedrichs_muscl, two_shock, two_shock_muscl };
 // automatic: mirror images where every corner of the walls is a right one with the water inside, else rows. See kernels/walls.hpp.
 enum class Walling { automatic, none, vbp, mvbp, rows, mirror };
@@ -144,6 +155,7 @@ struct Scene {
   std::vector<OpenBoundary> boundaries;
   std::vector<Gauge> gauges;
   std::vector<RunUp> run_ups;
+  std::vector<Transect> profiles;
   Sph sph;
   Compare compare;
   Output output;

@@ -8,6 +8,10 @@
 namespace freshet::swe {
 namespace {
 
+// sum V W is 1 within the water, 1/2 at a straight wall, 1/4 in a corner, and falls to 0 beyond a dry front: there the mean of the
+// few particles that reach a point would carry their depth up to 2h ahead of the water.
+constexpr double least_cover = 0.25;
+
 template <int D>
 Vec<double, D> to_vec(const Point& p) {
   Vec<double, D> v;
@@ -70,7 +74,7 @@ std::vector<PointState> Solver<D>::sample(const std::vector<Point>& points) cons
       weight += w;
       depth += w * p.rho(j);
     });
-    states[k] = {bed_ ? bed_->spline.at(at_point).b : 0.0, weight > 0 ? depth / weight : 0.0, weight > 0};
+    states[k] = {bed_ ? bed_->spline.at(at_point).b : 0.0, depth / larger(weight, least_cover), weight > 0};
   }
   return states;
 }
