@@ -9,7 +9,7 @@ namespace freshet {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-constexpr double least_cover = 0.8;  // of sum V W: below it a cell is at the edge of the water
+constexpr double least_cover = 0.95;  // of sum V W: below it a cell is at the edge of the water, and the mean would spread it
 
 // Whether the place counts in the errors.
 bool counts(const Scene& scene, double x, double y) {

@@ -31,7 +31,7 @@ struct Grid {
 };
 Grid comparison_grid(const Scene& scene);
 
-// sum_j m_j W_j / max(sum_j V_j W_j, 0.8) with V_j = m_j / depth_j and the cubic spline of the particles' own
+// sum_j m_j W_j / max(sum_j V_j W_j, 0.95) with V_j = m_j / depth_j and the cubic spline of the particles' own
 // h, x fastest [m]: the plain sum outside the water, where the Shepard mean would spread it, and normalised
 // inside.
 std::vector<double> depth_on_grid(const Grid& grid, int dimension, const Fluid& fluid);
