@@ -50,6 +50,18 @@ void extend_past(std::vector<Point>& wall, const std::vector<freshet::OpenBounda
   extend(wall.back(), wall[wall.size() - 2]);
 }
 
+WallKind wall_kind(Walling wanted, bool exact_images) {
+  switch (wanted) {
+    case Walling::none: return WallKind::none;
+    case Walling::vbp: return WallKind::vbp;
+    case Walling::mvbp: return WallKind::mvbp;
+    case Walling::rows: return WallKind::rows;
+    case Walling::mirror: return WallKind::mirror;
+    case Walling::automatic: break;
+  }
+  return exact_images ? WallKind::mirror : WallKind::rows;
+}
+
 }  // namespace
 
 template <int D>
@@ -78,9 +90,10 @@ void Solver<D>::build_walls() {
     if (D == 2) extend_past(lines.back(), scene_.boundaries, scene_.water.spacing);
   }
   const Point middle{0.5 * (scene_.domain.low[0] + scene_.domain.high[0]), 0.5 * (scene_.domain.low[1] + scene_.domain.high[1])};
-  const Walling wanted = scene_.sph.walls;
-  const bool mirror = wanted == Walling::mirror || (wanted == Walling::automatic && (D == 1 || only_right_corners(lines)));
-  walls_.emplace(lines, mirror ? WallKind::mirror : WallKind::mvbp, scene_.water.spacing, middle);
+  const WallKind kind = wall_kind(scene_.sph.walls, D == 1 || only_right_corners(lines));
+  // Rows reach as deep as the support of an h half as long again as the first.
+  const double dx = scene_.water.spacing, reach = 1.5 * support_ * scene_.sph.eta * dx;
+  walls_.emplace(lines, WallOptions{kind, dx, reach, scene_.sph.slip}, middle, support_);
 }
 
 template <int D>
@@ -142,6 +155,8 @@ void Solver<D>::make_fields() {
   if (gradient_)
     for (const char* name : {"strain_xx", "strain_xy", "strain_yy"})
       if (D == 2 || name == std::string("strain_xx")) f.real(name, "1/s", Carry::no);
+  if (depth_gradient_) vector("depth_slope_x", "depth_slope_y", "1", Carry::no);
+  if (scene_.sph.well_balanced) f.real("calibration", "1", Carry::state);
   if (bed_) f.real("bed", "m", Carry::result);
   if (friction_) f.real("drag", "1/m", Carry::result);
   if (!boundaries_.empty()) f.integer("kind", "1", Carry::state);
@@ -171,6 +186,7 @@ Particles<D> Solver<D>::bind() const {
   p.signal = f.real("signal");
   p.id = f.integer("id");
   if (gradient_) p.strain = strain_field(f, dimension);
+  if (depth_gradient_) p.depth_slope = vector_field(f, "depth_slope_x", "depth_slope_y", dimension);
   return p;
 }
 
