@@ -133,7 +133,7 @@ TEST_CASE("a uniform depth is exact on the grid inside the water and zero beyond
   const auto depth = depth_on_grid(grid, dimension, lattice(dimension, dx, 0.5, 2.0));
   const auto at = [&](int i, int j) { return depth[static_cast<std::size_t>(j * grid.count[0] + i)]; };
   const int middle = dimension == 2 ? 100 : 0;
-  // sum m W / sum V W = depth wherever the cover is above 0.8, whatever the kernel sum: rounding only.
+  // sum m W / sum V W = depth wherever the cover is above 0.95, whatever the kernel sum: rounding only.
   CHECK(at(50, middle) == Approx(2).epsilon(1e-12));
   for (int i = 0; i < grid.count[0]; ++i) {
     if (grid.x(i) > 0.5 + 2 * h) CHECK(at(i, middle) == 0);
