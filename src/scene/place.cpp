@@ -17,13 +17,6 @@ double finite_depth(const Function& depth, double x, double y) {
   return d;
 }
 
-Point velocity_at(const Scene& scene, double x, double y) {
-  Point v{0, 0};
-  for (int k = 0; k < 2; ++k)
-    if (scene.water.velocity[k]) v[k] = scene.water.velocity[k](x, y);
-  return v;
-}
-
 // Cells along one side of the box.
 struct Cells {
   int n;
@@ -100,6 +93,13 @@ std::vector<Placed> place_equal_mass(const Scene& scene, const Function& depth) 
 }
 
 }  // namespace
+
+Point velocity_at(const Scene& scene, double x, double y) {
+  Point v{0, 0};
+  for (int k = 0; k < 2; ++k)
+    if (scene.water.velocity[k]) v[k] = scene.water.velocity[k](x, y);
+  return v;
+}
 
 std::vector<Placed> place(const Scene& scene, const Function& depth) {
   auto particles = scene.water.start == Water::Start::equal_mass ? place_equal_mass(scene, depth) : place_cells(scene, depth);

@@ -40,7 +40,8 @@ struct Bed {
 
 struct Water {
   double spacing = 0;                         // m, particle spacing dx
-  enum class Start { cells, equal_mass } start = Start::cells;
+  // relaxed: cells, then pushed by their own pressure until they lie still along slanting and curved walls
+  enum class Start { cells, equal_mass, relaxed } start = Start::cells;
   Function depth;                             // m; particles are placed where it is > wet_above
   Function surface;                           // m; absent where the scene gives the depth: depth = surface - bed
   std::array<Function, 2> velocity;           // m/s; absent = at rest

@@ -3,6 +3,7 @@
 
 #include "src/errors.hpp"
 #include "src/scene/place.hpp"
+#include "src/swe/relax.hpp"
 #include "src/swe/solver.hpp"
 
 namespace freshet::swe {
@@ -96,17 +97,22 @@ void Solver<D>::build_walls() {
   walls_.emplace(lines, WallOptions{kind, dx, reach, scene_.sph.slip}, middle, support_);
 }
 
+// Depth at t = 0 over the bed as the particles feel it: filtered and tabulated.
+template <int D>
+Function Solver<D>::initial_depth() const {
+  if (!scene_.water.surface) return scene_.water.depth;
+  return [this](double x, double y) {
+    Vec<double, D> at;
+    at.x = x;
+    if constexpr (D == 2) at.y = y;
+    return scene_.water.surface(x, y) - (bed_ ? bed_->spline.at(at).b : 0.0);
+  };
+}
+
 template <int D>
 void Solver<D>::place_particles() {
-  Function depth = scene_.water.depth;
-  if (scene_.water.surface)  // over the bed as the particles feel it: filtered and tabulated
-    depth = [this](double x, double y) {
-      Vec<double, D> at;
-      at.x = x;
-      if constexpr (D == 2) at.y = y;
-      return scene_.water.surface(x, y) - (bed_ ? bed_->spline.at(at).b : 0.0);
-    };
-  const std::vector<Placed> placed = place(scene_, depth);
+  const bool relaxed = scene_.water.start == Water::Start::relaxed;
+  const std::vector<Placed> placed = relaxed ? relaxed_lattice<D>(scene_, initial_depth()) : place(scene_, initial_depth());
   particles_ = FieldSet(static_cast<int>(placed.size()));
   make_fields();
   const Particles<D> p = bind();

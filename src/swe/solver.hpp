@@ -37,6 +37,7 @@ class Solver : public Method {
   void build_bed();
   void build_walls();
   void build_boundaries();
+  Function initial_depth() const;
   void place_particles();
   void make_fields();
   Particles<D> bind() const;
