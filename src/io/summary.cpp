@@ -51,6 +51,7 @@ void write(JsonWriter& out, const std::vector<ErrorsAt>& errors_at) {
 void write(JsonWriter& out, const Steadiness& steady) {
   out.begin("steady")
       .value("max_speed_rel", steady.max_speed_rel)
+      .value("end_speed_rel", steady.end_speed_rel)
       .value("rate", steady.rate)
       .value("thesis_ls", steady.thesis_ls)
       .end();
@@ -110,8 +111,8 @@ void print_errors_at(std::FILE* out, const std::vector<ErrorsAt>& errors_at) {
 }
 
 void print_steadiness(std::FILE* out, const Steadiness& s) {
-  std::fprintf(out, "largest speed %s of sqrt(g d_max); depths change by %s per second (rms), L_s of the thesis %s\n",
-               cell(s.max_speed_rel, 1, "%.3e").c_str(), cell(s.rate, 1, "%.2e").c_str(),
+  std::fprintf(out, "largest speed %s of sqrt(g d_max), at the end %s; depths change by %s per second (rms), L_s of the thesis %s\n",
+               cell(s.max_speed_rel, 1, "%.3e").c_str(), cell(s.end_speed_rel, 1, "%.3e").c_str(), cell(s.rate, 1, "%.2e").c_str(),
                cell(s.thesis_ls, 1, "%.2e").c_str());
 }
 

@@ -54,6 +54,7 @@ struct ErrorsAt {
 // How still a steady flow stands.
 struct Steadiness {
   double max_speed_rel = unknown;   // largest speed of any particle at any step / sqrt(g d_max), d_max of the start
+  double end_speed_rel = unknown;   // the same at the end alone
   double rate = unknown;            // 1/s, rms over the particles of the relative change of depth at the end
   double thesis_ls = unknown;       // the same as thesis (1.12), a sum over N particles of one step: sqrt(N) rate dt
 };

@@ -57,7 +57,10 @@ Steadiness SteadyRecorder::result(const Method& method, double dt) const {
     ++count;
   }
   Steadiness steady;
-  if (deepest_ > 0) steady.max_speed_rel = fastest_ / std::sqrt(gravity_ * deepest_);
+  if (deepest_ > 0) {
+    steady.max_speed_rel = fastest_ / std::sqrt(gravity_ * deepest_);
+    steady.end_speed_rel = largest_speed(fields) / std::sqrt(gravity_ * deepest_);
+  }
   if (count > 0) steady.rate = std::sqrt(sum / count);
   steady.thesis_ls = std::sqrt(sum) * dt;
   return steady;
