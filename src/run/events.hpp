@@ -40,7 +40,7 @@ struct Stride {
 };
 
 struct Events {
-  Timetable outputs, comparisons, profiles;
+  Timetable outputs, comparisons, profiles, snapshots;  // snapshots: Compare::times
   double end;  // s
   explicit Events(const Scene& scene);
 
