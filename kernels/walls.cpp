@@ -153,6 +153,7 @@ WallView<D> Walls<D>::view() const {
   view.mirror = kind_ == WallKind::mirror;
   view.segment = points_.integer("segment");
   view.segments = segments_;
+  view.deepest = depth_;
   view.x.x = points_.real("x");
   view.projector.xx = points_.real("pxx");
   if constexpr (D == 2) {
@@ -168,30 +169,6 @@ void Walls<D>::find(const ClusterSet& clusters, const VecField<double, D>& x, co
   const double reach = kind_ == WallKind::mirror ? 2.0 : 1.0;  // a neighbour's image may stand right behind the wall
   near_.build<D>(clusters, {x, h, order_.rows(), view().x, points_.real("h"), reach, margin});
 }
-
-namespace {
-
-// How far a position lies on the water's side of a segment; nothing where the segment does not catch it.
-template <int D>
-KOKKOS_INLINE_FUNCTION double behind(const WallSegment& s, const Vec<double, D>& p, double deepest) {
-  double inside = (p.x - s.a[0]) * s.normal[0], along = 0;
-  if constexpr (D == 2) {
-    inside += (p.y - s.a[1]) * s.normal[1];
-    along = (p.x - s.a[0]) * s.tangent[0] + (p.y - s.a[1]) * s.tangent[1];
-  }
-  const bool caught = inside < 0 && inside > -deepest && along >= -s.before && along <= s.length + s.after;
-  return caught ? -inside : 0.0;
-}
-
-template <int D>
-KOKKOS_INLINE_FUNCTION Vec<double, D> normal_of(const WallSegment& s) {
-  Vec<double, D> n;
-  n.x = s.normal[0];
-  if constexpr (D == 2) n.y = s.normal[1];
-  return n;
-}
-
-}  // namespace
 
 template <int D>
 void Walls<D>::reflect(const ClusterSet& clusters, const VecField<double, D>& x, const VecField<double, D>& v,

@@ -26,6 +26,26 @@ struct WallSegment {
   int next;              // the segment behind the corner of less than 180 degrees at b; -1 if there is none
 };
 
+// How far a position lies on the water's side of a segment; nothing where the segment does not catch it.
+template <int D>
+KOKKOS_INLINE_FUNCTION double behind(const WallSegment& s, const Vec<double, D>& p, double deepest) {
+  double inside = (p.x - s.a[0]) * s.normal[0], along = 0;
+  if constexpr (D == 2) {
+    inside += (p.y - s.a[1]) * s.normal[1];
+    along = (p.x - s.a[0]) * s.tangent[0] + (p.y - s.a[1]) * s.tangent[1];
+  }
+  const bool caught = inside < 0 && inside > -deepest && along >= -s.before && along <= s.length + s.after;
+  return caught ? -inside : 0.0;
+}
+
+template <int D>
+KOKKOS_INLINE_FUNCTION Vec<double, D> normal_of(const WallSegment& s) {
+  Vec<double, D> n;
+  n.x = s.normal[0];
+  if constexpr (D == 2) n.y = s.normal[1];
+  return n;
+}
+
 // An orthogonal map x -> R x + shift: a reflection in one wall, or in both walls of a corner.
 template <int D>
 struct Image {
@@ -82,6 +102,14 @@ struct WallView {
   bool mirror = false;
   Field<int> segment;              // of each wall point
   Kokkos::View<WallSegment*, Memory> segments;
+  double deepest = 0;              // m, how far behind a wall a particle is still caught
+
+  // The position, mirrored in every wall that it stands behind.
+  KOKKOS_INLINE_FUNCTION Vec<double, D> inside(Vec<double, D> p) const {
+    for (int k = 0; k < segments.extent_int(0); ++k)
+      p += (2 * behind<D>(segments(k), p, deepest)) * normal_of<D>(segments(k));
+    return p;
+  }
 
   // 1 in the lanes that stand before the segment itself, not beside it.
   KOKKOS_FORCEINLINE_FUNCTION static Lane before(const WallSegment&, const Vec<Lane, 1>&) { return 1.0; }

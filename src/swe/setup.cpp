@@ -141,7 +141,7 @@ void Solver<D>::make_fields() {
   f.integer("id", "1", Carry::state);
   if (gradient_)
     for (const char* name : {"strain_xx", "strain_xy", "strain_yy"})
-      if (D == 2 || name == std::string("strain_xx")) f.real(name, "1/s", Carry::no);
+      if (D == 2 || name == std::string("strain_xx")) f.real(name, "1/s", scene_.split && scene_.split->linear ? Carry::result : Carry::no);
   if (bed_) f.real("bed", "m", Carry::result);
   if (friction_) f.real("drag", "1/m", Carry::result);
   if (!boundaries_.empty()) f.integer("kind", "1", Carry::state);
