@@ -70,6 +70,7 @@ int Refinement<D>::merge(const Particles<D>& p, int n, const Field<int>& kind, c
   choose_partners(p, n, kind, clusters, near);
   const Field<int> partner = partner_;
   const ClusterSet sets = clusters;
+  const double longest = relax_.longest;
   int mergers = 0;
   Kokkos::parallel_reduce("merge::join", Range(0, clusters.size()), KOKKOS_LAMBDA(int c, int& count) {
         const Lanes me = sets(c);
@@ -84,8 +85,10 @@ int Refinement<D>::merge(const Particles<D>& p, int n, const Field<int>& kind, c
           p.rho(i) = m / (p.m(i) / p.rho(i) + p.m(j) / p.rho(j));  // the areas add up
           p.rate(i) += part * (p.rate(j) - p.rate(i));
           p.m(i) = m;
-          p.h0(i) = p.h(i);
-          p.kh(i) = p.rho(i) * power<D>(p.h(i));
+          const double area0 = power<D>(p.h0(i)) + power<D>(p.h0(j)), kh = p.rho(i) * power<D>(p.h(i));
+          const double h0 = kh / (p.kh(i) + p.kh(j)) * area0;  // to the power D: kh / h0^D is the two's mean rho0
+          p.h0(i) = smaller(D == 1 ? h0 : root(h0), larger(longest, larger(p.h0(i), p.h0(j))));
+          p.kh(i) = kh;
           p.id(j) = -1;
           ++count;
         }

@@ -32,10 +32,13 @@ struct MergeOptions {
   double reach;            // of h: how far apart the two may be
 };
 
-// kh goes to eta^D m, so h to eta (m / rho)^(1/D): d ln(kh / (eta^D m)) / dt = - c / (time h) of the same.
+// kh goes to eta^D m~, so h to eta (m~ / rho)^(1/D): d ln(kh / (eta^D m~)) / dt = - (c / (time h)) ln(kh / (eta^D m~)), where
+// m~ is the particle's own mass or that of heavier ones within 2 h. With its own mass alone, a light particle among heavy
+// ones sees a hole between them as shallow water and is drawn in: still water mixed by itself.
 struct RelaxOptions {
-  double eta, gravity;        // -, m/s2
-  double shrinking, growing;  // in h / c: time constants where kh is too large (after a split) or too small (after a merger)
+  double eta, gravity;  // -, m/s2
+  double time;          // in h / c; 0 = at once
+  double longest;       // m: nothing here lets h0 grow beyond, so that the cap of h stays where it was for lone particles
 };
 
 // What happened since t = 0.
@@ -53,10 +56,13 @@ class Refinement {
     if (split_) lay_pattern();
   }
 
-  // After the drift, before the sort. clusters, near: those of the last list; particles inserted since then do not merge.
+  // After the drift, before the sort: splits and merges. clusters, near: those of the last list; particles inserted since then do not merge.
   // kind: nothing but fluid (0) is touched; empty: all is fluid. New particles take the ids from next_id on.
   void adapt(FieldSet& particles, const Bind& bind, const Field<int>& kind, const ClusterSet& clusters, const NeighbourView& near,
-             const WallView<D>& walls, double dt, int& next_id);
+             const WallView<D>& walls, int& next_id);
+
+  // After the list, before the density: writes kh and h0. What h outgrows the list, the density pass reports.
+  void relax(const ClusterSet& clusters, const NeighbourView& near, const Particles<D>& p, const Field<int>& kind, double dt) const;
 
   const RefinementCount& count() const { return count_; }
   std::vector<double> save() const { return {static_cast<double>(count_.splits), static_cast<double>(count_.mergers)}; }
@@ -66,7 +72,6 @@ class Refinement {
   int split(FieldSet& particles, const Bind& bind, const Field<int>& kind, const WallView<D>& walls, int& next_id);
   // Merges the pairs of which each is the other's nearest; returns how many. The second of a pair gets the id -1.
   int merge(const Particles<D>& p, int n, const Field<int>& kind, const ClusterSet& clusters, const NeighbourView& near);
-  void relax(const Particles<D>& p, int n, const Field<int>& kind, double dt) const;
 
  public:  // device lambdas may not live in private members
   void lay_pattern();

@@ -1,4 +1,4 @@
-// Refinement: splitting and the relaxation of the smoothing length.
+// Refinement: splitting.
 #include "kernels/swe/refinement.hpp"
 
 namespace freshet::swe {
@@ -72,6 +72,7 @@ void Refinement<D>::place_daughters(const Particles<D>& p, int parents, int firs
   const VecField<double, D> offset = offset_;
   const double alpha = split_->alpha;
   const bool linear = split_->linear;
+  const double longest = relax_.longest;
   Kokkos::parallel_for("split::place", Range(0, parents * daughters), KOKKOS_LAMBDA(int q) {
         const int k = q / parents, s = q % parents;  // neighbours in memory belong to different parents
         const int copy = s * (daughters - 1) + k - 1, i = k == 0 ? parent(s) : first + copy;
@@ -81,33 +82,15 @@ void Refinement<D>::place_daughters(const Particles<D>& p, int parents, int firs
           for (const VecField<double, D>& v : {p.v, p.v_pred}) put(v, i, at(v, i) + stretched(p.strain, parent(s), to - from));
         p.m(i) *= share(k);
         p.h(i) *= alpha;
-        p.h0(i) = p.h(i);
+        p.h0(i) = smaller(p.h(i), larger(p.h0(i), longest));
         p.kh(i) = p.rho(i) * power<D>(p.h(i));
         if (k > 0) p.id(i) = first_id + copy;
       });
 }
 
 template <int D>
-void Refinement<D>::relax(const Particles<D>& p, int n, const Field<int>& kind, double dt) const {
-  const RelaxOptions r = relax_;
-  const double per_mass = power<D>(r.eta);
-  const bool open = kind.extent(0) > 0;
-  Kokkos::parallel_for("refine::relax", Range(0, n), KOKKOS_LAMBDA(int i) {
-        const double target = per_mass * p.m(i), excess = p.kh(i) / target;
-        if (p.id(i) < 0 || (open && kind(i) != 0) || ::fabs(excess - 1) < 1e-12) return;
-        const double time = (excess > 1 ? r.shrinking : r.growing) * p.h(i);
-        const double left = time > 0 ? ::exp(-dt * root(r.gravity * p.rho(i)) / time) : 0.0;
-        const double factor = ::pow(excess, left - 1), in_length = D == 1 ? factor : root(factor);
-        p.kh(i) *= factor;
-        p.h0(i) *= in_length;
-        p.h(i) *= in_length;
-      });
-}
-
-template <int D>
 void Refinement<D>::adapt(FieldSet& particles, const Bind& bind, const Field<int>& kind, const ClusterSet& clusters,
-                          const NeighbourView& near, const WallView<D>& walls, double dt, int& next_id) {
-  relax(bind(), particles.size(), kind, dt);
+                          const NeighbourView& near, const WallView<D>& walls, int& next_id) {
   if (merge_) count_.mergers += merge(bind(), particles.size(), kind, clusters, near);
   if (split_) count_.splits += split(particles, bind, kind, walls, next_id);
 }

@@ -57,8 +57,8 @@ void read_split(Table& section, Scene& scene) {
   if (line) into.within(2, 3);
   else into.check([](int n) { return n == 7; }, "7 in 2-D: a hexagon and its middle");
   split.into = into.otherwise(line ? 3 : 7);
-  split.alpha = section.number("alpha").within(0.2, 1.0).otherwise(0.9);
-  split.eps = section.number("eps").within(0.05, 1.0).otherwise(line && split.into == 2 ? 0.25 : line ? 1.0 / 3 : 0.4);
+  split.alpha = section.number("alpha").within(0.2, 1.0).otherwise(line ? 0.9 : 0.92);
+  split.eps = section.number("eps").within(0.05, 1.0).otherwise(line && split.into == 2 ? 0.25 : line ? 1.0 / 3 : 0.36);
   split.relax = section.number("relax", "h/c").at_least(0).otherwise(split.relax);
   split.linear = section.choice<bool>("velocity", {{"same", false}, {"linear", true}}).otherwise(false);
   split.least_depth = section.number("least_depth", "m").at_least(0).otherwise(split.least_depth);

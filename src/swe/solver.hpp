@@ -47,7 +47,7 @@ class Solver : public Method {
   std::optional<Bed<D>> bed() const;
   void find_neighbours();  // sorts and lists
   void list_neighbours();
-  void refine(double dt);   // splits and merges
+  void refine();  // splits and merges
   void close_density(double ahead);
   void evaluate(double kick_dt, double ahead);
   WallView<D> wall_view() const { return walls_ ? walls_->view() : WallView<D>{}; }
