@@ -4,6 +4,7 @@
 #include <string>
 
 #include "src/errors.hpp"
+#include "src/scene/water_region.hpp"
 
 namespace freshet {
 namespace {
@@ -14,13 +15,6 @@ double finite_depth(const Function& depth, double x, double y) {
     throw SceneError("water: the depth at (" + std::to_string(x) + ", " + std::to_string(y) +
                      ") m is not a finite number; check the expressions of [water] and [bed] there");
   return d;
-}
-
-Point velocity_at(const Scene& scene, double x, double y) {
-  Point v{0, 0};
-  for (int k = 0; k < 2; ++k)
-    if (scene.water.velocity[k]) v[k] = scene.water.velocity[k](x, y);
-  return v;
 }
 
 // Cells along one side of the box.
@@ -35,16 +29,41 @@ Cells cells_along(const Scene& scene, int axis) {
   return {n, scene.domain.low[axis], length / n};
 }
 
+// The part of a cell that is in the water and its middle: all or nothing where corners and centre agree.
+struct CutCell {
+  double part;
+  Point middle;
+};
+CutCell cut_cell(const WaterRegion& water, const Point& centre, double width, double height) {
+  constexpr int fine = 10;  // sub-cells along a side
+  int agree = water.holds(centre) ? 1 : 0;
+  for (const double sx : {-0.5, 0.5})
+    for (const double sy : {-0.5, 0.5}) agree += water.holds({centre[0] + sx * width, centre[1] + sy * height}) ? 1 : 0;
+  if (agree == 0 || agree == 5) return {agree / 5.0, centre};
+  double count = 0, x = 0, y = 0;
+  for (int k = 0; k < fine * fine; ++k) {
+    const Point p{centre[0] + ((k % fine + 0.5) / fine - 0.5) * width, centre[1] + ((k / fine + 0.5) / fine - 0.5) * height};
+    if (!water.holds(p)) continue;
+    ++count, x += p[0], y += p[1];
+  }
+  return {count / (fine * fine), count > 0 ? Point{x / count, y / count} : centre};
+}
+
 std::vector<Placed> place_cells(const Scene& scene, const Function& depth) {
+  constexpr double least_part = 0.25;  // of a cell: the water of smaller slivers along slanting walls is left out
+  const WaterRegion water(scene.walls);
   std::vector<Placed> particles;
   const bool plane = scene.domain.dimension == 2;
   const Cells along_x = cells_along(scene, 0), along_y = plane ? cells_along(scene, 1) : Cells{1, -0.5, 1};
   const double area = along_x.width * along_y.width;
-  const double h0 = scene.sph.eta * (plane ? std::sqrt(area) : area);
   for (int j = 0; j < along_y.n; ++j)
     for (int i = 0; i < along_x.n; ++i) {
-      const double x = along_x.centre(i), y = along_y.centre(j), d = finite_depth(depth, x, y);
-      if (d > scene.water.wet_above) particles.push_back({{x, y}, d, area, h0, velocity_at(scene, x, y)});
+      CutCell cell{1, {along_x.centre(i), along_y.centre(j)}};
+      if (plane && !water.everywhere()) cell = cut_cell(water, cell.middle, along_x.width, along_y.width);
+      const double x = cell.middle[0], y = cell.middle[1], own = cell.part * area;
+      if (cell.part < least_part) continue;
+      const double d = finite_depth(depth, x, y), h0 = scene.sph.eta * (plane ? std::sqrt(own) : own);
+      if (d > scene.water.wet_above) particles.push_back({{x, y}, d, own, h0, velocity_at(scene, x, y)});
     }
   return particles;
 }
@@ -74,6 +93,13 @@ std::vector<Placed> place_equal_mass(const Scene& scene, const Function& depth) 
 }
 
 }  // namespace
+
+Point velocity_at(const Scene& scene, double x, double y) {
+  Point v{0, 0};
+  for (int k = 0; k < 2; ++k)
+    if (scene.water.velocity[k]) v[k] = scene.water.velocity[k](x, y);
+  return v;
+}
 
 std::vector<Placed> place(const Scene& scene, const Function& depth) {
   auto particles = scene.water.start == Water::Start::equal_mass ? place_equal_mass(scene, depth) : place_cells(scene, depth);

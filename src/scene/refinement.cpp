@@ -46,10 +46,17 @@ AreaLimit read_area(Table& section, const Scene& scene) {
   return limit;
 }
 
+void refuse_balance(Table& section, const Scene& scene) {
+  if (scene.sph.well_balanced)
+    section.error("area", "'sph.well_balanced' holds every particle to its depth at t = 0, which new ones do not have",
+                  "leave out either of the two");
+}
+
 }  // namespace
 
 void read_split(Table& section, Scene& scene) {
   if (!section.given()) return;
+  refuse_balance(section, scene);
   Split split;
   const bool line = scene.domain.dimension == 1;
   split.area = read_area(section, scene);
@@ -68,6 +75,7 @@ void read_split(Table& section, Scene& scene) {
 
 void read_merge(Table& section, Scene& scene) {
   if (!section.given()) return;
+  refuse_balance(section, scene);
   Merge merge;
   merge.area = read_area(section, scene);
   merge.reach = section.number("reach", "h").within(0.1, 1.5).otherwise(merge.reach);
