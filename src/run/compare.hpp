@@ -9,8 +9,11 @@
 
 namespace freshet {
 
+// All norms below at one time, over the particles (and cells) inside scene.compare.where.
+ErrorNorms error_norms(const Scene& scene, const Fluid& fluid, double t);
+
 // sqrt(sum (d - d_e)^2 / sum d_e^2) over the particles; likewise their largest |d - d_e| [m] and rms |v -
-// v_e| [m/s].
+// v_e| [m/s]. Over those with d_e above scene.compare.threshold: the rms norms of thesis (2.58) and (2.59).
 ErrorNorms particle_errors(const Scene& scene, const Fluid& fluid, double t);
 
 // Mean of |d - d_e| / d_e over the particles with d_e above scene.compare.threshold.
@@ -28,7 +31,7 @@ struct Grid {
 };
 Grid comparison_grid(const Scene& scene);
 
-// sum_j m_j W_j / max(sum_j V_j W_j, 0.8) with V_j = m_j / depth_j and the cubic spline of the particles' own
+// sum_j m_j W_j / max(sum_j V_j W_j, 0.95) with V_j = m_j / depth_j and the cubic spline of the particles' own
 // h, x fastest [m]: the plain sum outside the water, where the Shepard mean would spread it, and normalised
 // inside.
 std::vector<double> depth_on_grid(const Grid& grid, int dimension, const Fluid& fluid);

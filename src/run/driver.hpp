@@ -11,6 +11,7 @@
 #include "src/run/monitor.hpp"
 #include "src/run/progress.hpp"
 #include "src/run/stations.hpp"
+#include "src/run/steady.hpp"
 
 namespace freshet {
 
@@ -56,9 +57,11 @@ class Driver {
   Monitor monitor_;
   GaugeRecorder gauges_;
   RunUpRecorder run_ups_;
+  SteadyRecorder steady_;
   ParticleFile particles_;
   Progress progress_;
   std::vector<double> l1_samples_;  // depth_l1_rel at the comparison times
+  std::vector<ErrorsAt> errors_at_;
   double dt_ = 0;                   // s, of the last step
   int initial_particles_ = 0;
   double earlier_wall_ = 0, earlier_particle_steps_ = 0;  // of the processes before a resume

@@ -40,7 +40,7 @@ struct Stride {
 };
 
 struct Events {
-  Timetable outputs, comparisons;
+  Timetable outputs, comparisons, snapshots;  // snapshots: Compare::times
   double end;  // s
   explicit Events(const Scene& scene);
 

@@ -97,6 +97,9 @@ std::string output(const Scene& scene) {
 
 std::string compare(const Compare& compare) {
   std::string out = compare.description + ", depths above " + brief(compare.threshold) + " m";
+  for (const double t : compare.times) out += (t == compare.times.front() ? ", also at " : ", ") + brief(t);
+  if (!compare.times.empty()) out += " s";
+  if (compare.where) out += ", in a part of the domain";
   if (compare.samples == 1) return out;
   return out + ", median of " + std::to_string(compare.samples) + " times in the last " +
          brief(compare.window) + " s";

@@ -133,6 +133,9 @@ struct Compare {
   std::optional<double> grid_spacing;  // m, of the regular grid of grid_l2_rel (default: 1/200 of the domain)
   int samples = 1;                     // depth_l1_rel is the median over this many times ...
   double window = 0;                   // s, ... evenly spread over the last `window` seconds before the end
+  std::vector<double> times;           // s, increasing: all errors are also taken at these
+  Function where;                      // errors count where it is not 0; absent = everywhere
+  bool steady = false;                 // the exact flow does not change: largest speed and rate of change are recorded
   std::string description;             // "stoker: 10 m | 5 m, dam at 1000 m": for the read-back
 };
 

@@ -1,4 +1,4 @@
-// Runs one of the scenes in cases/ to its end, as the program does, and returns its summary.
+// Runs one of the scenes in cases/ to its end, as the program does, and returns its summary and its water.
 #pragma once
 #include <cstdlib>
 #include <filesystem>
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "build_info.hpp"
+#include "src/io/fluid.hpp"
 #include "src/method.hpp"
 #include "src/run/driver.hpp"
 #include "src/scene/read.hpp"
@@ -17,7 +18,12 @@ inline Scene read_case(const std::string& name, const std::vector<std::string>& 
   return read_scene(std::string(build::source_dir) + "/cases/" + name + ".toml", overrides);
 }
 
-inline Summary run_case(const std::string& name, const std::vector<std::string>& overrides = {}) {
+struct Finished {
+  Summary summary;
+  Fluid fluid;
+};
+
+inline Finished finish_case(const std::string& name, const std::vector<std::string>& overrides = {}) {
   const Scratch scratch;
   const Scene scene = read_case(name, overrides);
   const auto method = make_method(scene);
@@ -26,7 +32,11 @@ inline Summary run_case(const std::string& name, const std::vector<std::string>&
   Driver driver(scene, *method, options);
   driver.begin();
   driver.run();
-  return driver.summary();
+  return {driver.summary(), fluid_on_host(method->fields())};
+}
+
+inline Summary run_case(const std::string& name, const std::vector<std::string>& overrides = {}) {
+  return finish_case(name, overrides).summary;
 }
 
 // Whether the Okushiri benchmark's files are where a scene would find them.
