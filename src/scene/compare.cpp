@@ -4,6 +4,7 @@
 #include "src/reference/bump.hpp"
 #include "src/reference/exact.hpp"
 #include "src/reference/radial.hpp"
+#include "src/reference/ritter.hpp"
 #include "src/scene/sections.hpp"
 
 namespace freshet::input {
@@ -30,6 +31,12 @@ Solution read_stoker(Table& table, const Scene& scene) {
   const double speed = right < left ? stoker_middle(left, right, scene.gravity).shock : 0;
   return {stoker(left, right, dam, scene.gravity),
           shown(left) + " m | " + shown(right) + " m, dam at " + shown(dam) + " m", speed, left / right};
+}
+
+Solution read_ritter(Table& table, const Scene& scene) {
+  const double left = table.number("left", "m").positive().required(1);
+  const double dam = table.number("dam", "m").required();
+  return {ritter(left, dam, scene.gravity), shown(left) + " m | dry, dam at " + shown(dam) + " m"};
 }
 
 Bowl read_bowl(Table& table, const Scene& scene) {
@@ -98,6 +105,7 @@ Solution read_exact(Table& table, const Scene& scene) {
   using Reader = Solution (*)(Table&, const Scene&);
   const Reader reader = table
                             .choice<Reader>("type", {{"stoker", read_stoker},
+                                                     {"ritter", read_ritter},
                                                      {"thacker-planar", read_planar},
                                                      {"thacker-radial", read_radial},
                                                      {"radial-dam-break", read_radial_dam},

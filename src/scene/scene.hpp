@@ -118,6 +118,32 @@ struct Sph {
   bool well_balanced = false;  // still water over any bed stays at rest to round-off (kernels/swe/well_balanced.hpp)
 };
 
+// A limit on the area that a particle covers, in spacing^D; it may differ by region.
+struct AreaLimit {
+  struct Region {
+    std::vector<Point> corners;  // m, of a polygon; 1-D: both ends
+    double area;
+  };
+  std::optional<double> elsewhere;  // absent = no limit there
+  std::vector<Region> regions;      // the first that holds a place counts
+};
+
+struct Split {
+  AreaLimit area;          // a particle that covers this or more is split
+  int into = 7;            // daughters: 7 in 2-D, 2 or 3 in 1-D
+  double alpha, eps;       // a daughter's h and the pattern's radius, x the parent's h
+  double relax = 3;        // h / c: time in which a daughter's h goes to eta (m / depth)^(1/D)
+  bool linear = false;     // daughters follow the velocity gradient; else they have the parent's velocity
+  double least_depth = 0;  // m
+  int most_particles = 20000000;
+};
+
+struct Merge {
+  AreaLimit area;     // particles that both cover less merge
+  double reach = 1;   // x h: how far apart at most
+  double relax = 3;   // h / c
+};
+
 struct Compare {
   std::shared_ptr<const Exact> exact;
   double threshold = 1e-3;             // m, depth_l1_rel counts where the exact depth is above it
@@ -160,6 +186,8 @@ struct Scene {
   std::vector<RunUp> run_ups;
   std::vector<Transect> profiles;
   Sph sph;
+  std::optional<Split> split;
+  std::optional<Merge> merge;
   Compare compare;
   Output output;
   Limits limits;

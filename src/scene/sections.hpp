@@ -17,6 +17,9 @@ bool read_sph(Table& section, Scene& scene);
 // [bed]. Needs the domain, water.spacing and sph.eta.
 void read_bed(Table& section, Scene& scene);
 
+void read_split(Table& section, Scene& scene);  // [split], if it is named; needs the domain
+void read_merge(Table& section, Scene& scene);  // [merge], likewise, after [split]
+
 // [compare]. Needs the bed and water.spacing.
 struct ComparePlan {
   double window = 0;        // s

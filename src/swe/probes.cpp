@@ -107,6 +107,8 @@ std::vector<std::string> Solver<D>::features() const {
   if (walls_)
     names.push_back("walls (" + name_in(wall_kind_names(), walls_->kind()) + "), " + std::to_string(walls_->points()) + " points");
   if (!boundaries_.empty()) names.push_back("open boundaries: " + std::to_string(boundaries_.size()));
+  if (scene_.split) names.push_back("splitting into " + std::to_string(scene_.split->into));
+  if (scene_.merge) names.push_back("merging");
   return names;
 }
 
@@ -115,6 +117,7 @@ ScalarState Solver<D>::scalars() const {
   ScalarState state{{"crossing_time", {crossing_time_}}, {"next_id", {static_cast<double>(next_id_)}},
                     {"rebuilds", {static_cast<double>(report_.rebuilds)}}};
   for (size_t k = 0; k < boundaries_.size(); ++k) state["boundary." + std::to_string(k)] = boundaries_[k].save();
+  if (refinement_) state["refinement"] = refinement_->save();
   return state;
 }
 
@@ -124,6 +127,7 @@ void Solver<D>::restore(const ScalarState& state) {
   next_id_ = static_cast<int>(state.at("next_id")[0]);
   report_.rebuilds = static_cast<long>(state.at("rebuilds")[0]);
   for (size_t k = 0; k < boundaries_.size(); ++k) boundaries_[k].restore(state.at("boundary." + std::to_string(k)));
+  if (refinement_) refinement_->restore(state.at("refinement"));
   const Particles<D> p = bind();
   Kokkos::parallel_for("swe::restore", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) { p.inv_h(i) = 1.0 / p.h(i); });
   find_neighbours();  // the saved order is sorted already; gauges and walls ask for rows and lists before the next step

@@ -98,7 +98,8 @@ void Solver<D>::make_fields() {
   f.integer("id", "1", Carry::state);
   if (gradient_)
     for (const char* name : {"strain_xx", "strain_xy", "strain_yy"})
-      if (D == 2 || name == std::string("strain_xx")) f.real(name, "1/s", Carry::no);
+      if (D == 2 || name == std::string("strain_xx"))
+        f.real(name, "1/s", scene_.split && scene_.split->linear ? Carry::result : Carry::no);
   if (depth_gradient_) vector("depth_slope_x", "depth_slope_y", "1", Carry::no);
   if (scene_.sph.well_balanced) f.real("calibration", "1", Carry::state);
   if (bed_) f.real("bed", "m", Carry::result);

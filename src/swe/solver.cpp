@@ -41,6 +41,7 @@ Solver<D>::Solver(const Scene& scene)
   build_bed();
   build_boundaries();
   build_walls();
+  build_refinement();
   place_particles();
   fill_boundaries();
   find_neighbours();
@@ -58,7 +59,9 @@ void Solver<D>::step(double t, double dt) {
   kick_and_drift<D>(bind(), motion(), particles_.size(), dt);
   if (walls_) walls_->reflect(clusters_, bind().x, bind().v, bind().v_pred);
   for (auto& boundary : boundaries_) boundary.exchange(particles_, [this] { return bind(); }, bed(), t + dt, dt, next_id_);
+  if (refinement_) refine();
   find_neighbours();
+  if (refinement_) refinement_->relax(clusters_, neighbours_.view(), bind(), kind(), dt);
   evaluate(0.5 * dt, 0.5);
   for (auto& boundary : boundaries_) boundary.observe(order_.rows(), bind(), kind(), bed());
 }
