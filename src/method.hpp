@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cellgrid/fields.hpp"
+#include "cellgrid/order.hpp"
 #include "src/scene/scene.hpp"
 
 namespace freshet {
@@ -50,6 +50,7 @@ class Method {
   // kind (int, only with open boundaries: 0 fluid, 1 boundary particle). 1-D has no y, v; a flat bed has no bed field.
   virtual FieldSet& fields() = 0;
   virtual const FieldSet& fields() const = 0;
+  virtual const Rows& rows() const = 0;               // the order that the particles are in, with the reach of their h
   virtual Totals totals() const = 0;
   virtual StepReport report() const = 0;
   virtual std::vector<PointState> sample(const std::vector<Point>& points) const = 0;

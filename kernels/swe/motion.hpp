@@ -4,18 +4,30 @@
 #include <optional>
 
 #include "kernels/bed_spline.hpp"
+#include "kernels/nearest_table.hpp"
 #include "kernels/swe/particles.hpp"
 
 namespace freshet::swe {
 
 struct Friction {
-  double gravity, manning;  // m/s2, s/m^(1/3)
+  double gravity, manning;       // m/s2, s/m^(1/3)
+  NearestTable roughness2 = {};  // n^2 [s2/m^(2/3)] by place; empty: `manning` everywhere, nothing is looked up
 
   // K = g n^2 / d^(4/3) [1/m]: deceleration K |v| v (corrected (2.47)).
   template <class V>
   KOKKOS_FORCEINLINE_FUNCTION V drag(V depth) const {
+    return (gravity * manning * manning) * per_depth(depth);
+  }
+  template <int D, class V>
+  KOKKOS_FORCEINLINE_FUNCTION V drag(V depth, const Vec<V, D>& x) const {
+    return roughness2.given() ? gravity * roughness2.at(x) * per_depth(depth) : drag(depth);
+  }
+
+ private:
+  template <class V>
+  static KOKKOS_FORCEINLINE_FUNCTION V per_depth(V depth) {  // d^(-4/3)
     const V per_root = inverse_cbrt(depth);
-    return (gravity * manning * manning) * (per_root * per_root) * (per_root * per_root);
+    return (per_root * per_root) * (per_root * per_root);
   }
 };
 

@@ -31,6 +31,7 @@ Driver::Driver(const Scene& scene, Method& method, RunOptions options)
       monitor_(scene),
       gauges_(scene, inside(options_.directory, "gauges.csv")),
       run_ups_(scene.run_ups),
+      rasters_(scene, options_.directory),
       particles_(inside(options_.directory, "particles.h5part")),
       progress_(options_.progress, options_.terminal, 0, scene.end_time) {}
 
@@ -40,6 +41,7 @@ void Driver::begin() {
   particles_.create(scene_.text, build::version);
   gauges_.begin(method_);
   run_ups_.record(method_);
+  rasters_.begin(method_);
 }
 
 bool Driver::run() {
@@ -52,6 +54,7 @@ bool Driver::run() {
       if (clock_.step % 100 == 0) monitor_.check_all(method_, clock_);
       gauges_.record(method_, clock_.t);
       run_ups_.record(method_);
+      rasters_.record(method_, clock_.t);
       fire_events();
       if (progress_.due(clock_.t)) show_progress();
     }
@@ -59,6 +62,7 @@ bool Driver::run() {
   } catch (const Diverged& why) {
     give_up(why);
   }
+  rasters_.finish();
   write_state("state.h5");
   progress_.end_line();
   return finished(clock_, scene_);
@@ -67,7 +71,7 @@ bool Driver::run() {
 void Driver::step() {
   const double stable = method_.stable_dt();
   monitor_.check_dt(stable, clock_);
-  const Stride stride = events_.shorten(clock_, stable);
+  const Stride stride = events_.shorten(clock_, stable, rasters_.times().next());
   gauges_.watch(method_, clock_.t, stride.until);
   method_.step(clock_.t, stride.dt);
   clock_ = {stride.until, clock_.step + 1};
@@ -83,6 +87,7 @@ void Driver::fire_events() {
     monitor_.check_all(method_, clock_);
     write_particles();
   }
+  if (rasters_.times().due(clock_.t)) rasters_.write(method_, clock_.t);
   const bool periodic = scene_.output.checkpoint_every > 0 && !finished(clock_, scene_);
   if (periodic && progress_.elapsed() - last_checkpoint_ >= scene_.output.checkpoint_every)
     write_state("state.h5");
@@ -131,6 +136,7 @@ Values Driver::run_values() const {
   values["effort"] = {wall(), earlier_particle_steps_ + progress_.particle_steps()};
   gauges_.save(values);
   run_ups_.save(values);
+  rasters_.save(values);
   return values;
 }
 
@@ -146,6 +152,7 @@ void Driver::restore(const Checkpoint& checkpoint) {
   earlier_particle_steps_ = run.at("effort").at(1);
   gauges_.restore(run);
   run_ups_.restore(run);
+  rasters_.restore(run);
   if (std::filesystem::exists(inside(options_.directory, "particles.h5part"))) {
     particles_.truncate(static_cast<int>(events_.outputs.done()));
   } else {
@@ -191,7 +198,7 @@ ErrorNorms Driver::errors() const {
   const Fluid fluid = fluid_on_host(method_.fields());
   ErrorNorms errors = particle_errors(scene_, fluid, clock_.t);
   errors.depth_l1_rel = median(l1_samples_);
-  errors.grid_l2_rel = grid_l2(scene_, fluid, clock_.t);
+  errors.grid_l2_rel = grid_l2(scene_, method_, clock_.t);
   return errors;
 }
 

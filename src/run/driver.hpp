@@ -10,6 +10,7 @@
 #include "src/io/summary.hpp"
 #include "src/run/monitor.hpp"
 #include "src/run/progress.hpp"
+#include "src/run/rasters.hpp"
 #include "src/run/stations.hpp"
 
 namespace freshet {
@@ -56,6 +57,7 @@ class Driver {
   Monitor monitor_;
   GaugeRecorder gauges_;
   RunUpRecorder run_ups_;
+  RasterRecorder rasters_;
   ParticleFile particles_;
   Progress progress_;
   std::vector<double> l1_samples_;  // depth_l1_rel at the comparison times

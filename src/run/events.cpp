@@ -34,8 +34,8 @@ Events::Events(const Scene& scene)
       comparisons(comparison_times(scene.compare, scene.end_time)),
       end(scene.end_time) {}
 
-Stride Events::shorten(const Clock& clock, double stable_dt) const {
-  const double event = std::min({outputs.next(), comparisons.next(), end});
+Stride Events::shorten(const Clock& clock, double stable_dt, double next) const {
+  const double event = std::min({outputs.next(), comparisons.next(), next, end});
   const double remaining = event - clock.t;
   const double parts = std::max(1.0, std::ceil(remaining / stable_dt));
   const double dt = remaining / parts;

@@ -1,6 +1,7 @@
 #include "src/scene/place.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 #include "src/errors.hpp"
@@ -35,15 +36,28 @@ Cells cells_along(const Scene& scene, int axis) {
   return {n, scene.domain.low[axis], length / n};
 }
 
+// A number of [-1, 1) that depends on the seed and the counter alone (splitmix64).
+double random_offset(int seed, std::uint64_t counter) {
+  std::uint64_t z = static_cast<std::uint64_t>(seed) * 0x632be59bd9b4e019u + (counter + 1) * 0x9e3779b97f4a7c15u;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1;
+}
+
 std::vector<Placed> place_cells(const Scene& scene, const Function& depth) {
   std::vector<Placed> particles;
   const bool plane = scene.domain.dimension == 2;
   const Cells along_x = cells_along(scene, 0), along_y = plane ? cells_along(scene, 1) : Cells{1, -0.5, 1};
-  const double area = along_x.width * along_y.width;
+  const double area = along_x.width * along_y.width, disorder = scene.water.disorder;
   const double h0 = scene.sph.eta * (plane ? std::sqrt(area) : area);
   for (int j = 0; j < along_y.n; ++j)
     for (int i = 0; i < along_x.n; ++i) {
-      const double x = along_x.centre(i), y = along_y.centre(j), d = finite_depth(depth, x, y);
+      const auto off = [&](int axis) {
+        const auto cell = static_cast<std::uint64_t>(j) * static_cast<std::uint64_t>(along_x.n) + static_cast<std::uint64_t>(i);
+        return disorder > 0 ? disorder * random_offset(scene.water.seed, 2 * cell + static_cast<std::uint64_t>(axis)) : 0.0;
+      };
+      const double x = along_x.centre(i) + along_x.width * off(0), y = along_y.centre(j) + (plane ? along_y.width * off(1) : 0);
+      const double d = finite_depth(depth, x, y);
       if (d > scene.water.wet_above) particles.push_back({{x, y}, d, area, h0, velocity_at(scene, x, y)});
     }
   return particles;

@@ -28,6 +28,7 @@ void read_sections(Table& root, Scene& scene) {
   Table head = root.table("scene"), domain = root.table("domain"), sph = root.table("sph");
   Table water = root.table("water"), bed = root.table("bed"), compare = root.table("compare");
   Table time = root.table("time"), output = root.table("output"), limits = root.table("limits");
+  Table raster = root.table("raster");
   read_scene_section(head, scene);
   read_domain(domain, scene);
   const bool acceleration_named = read_sph(sph, scene);
@@ -43,6 +44,7 @@ void read_sections(Table& root, Scene& scene) {
   read_each(root, "gauge", scene, read_gauge);
   read_each(root, "runup", scene, read_run_up);
   read_output(output, scene);
+  read_rasters(raster, scene);
   read_limits(limits, scene);
 }
 

@@ -17,6 +17,9 @@ bool read_sph(Table& section, Scene& scene);
 // [bed]. Needs the domain, water.spacing and sph.eta.
 void read_bed(Table& section, Scene& scene);
 
+// bed.manning. Needs the domain, water.spacing and bed.spacing.
+void read_manning(Table& bed, Scene& scene);
+
 // [compare]. Needs the bed and water.spacing.
 struct ComparePlan {
   double window = 0;        // s
@@ -34,6 +37,7 @@ void read_wall(Table& section, Scene& scene);    // one [[wall]]; needs the boun
 void read_gauge(Table& section, Scene& scene);   // one [[gauge]]
 void read_run_up(Table& section, Scene& scene);  // one [[runup]]
 void read_output(Table& section, Scene& scene);  // [output]
+void read_rasters(Table& section, Scene& scene);  // [raster]; needs output.every
 void read_limits(Table& section, Scene& scene);  // [limits]
 
 // A duration: a positive number of seconds or { periods = n } of the exact solution.

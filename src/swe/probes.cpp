@@ -88,7 +88,7 @@ std::vector<std::string> Solver<D>::features() const {
   std::vector<std::string> names{"cubic spline", "density Newton", gradient_ ? "velocity gradient (MUSCL)" : "no reconstruction"};
   if (stabilise_.index() != 0) names.push_back("Lax-Friedrichs");
   if (bed_) names.push_back(bed_->variational ? "bed, variational acceleration" : "bed, classical acceleration");
-  if (friction_) names.push_back("Manning friction");
+  if (friction_) names.push_back(friction_->roughness2.given() ? "Manning friction by place" : "Manning friction");
   if (walls_)
     names.push_back(std::string(walls_->kind() == WallKind::mirror ? "walls (mirror images), " : "walls (MVBP), ") +
                     std::to_string(walls_->points()) + " points");

@@ -25,8 +25,8 @@ template <int D>
 Solver<D>::Solver(const Scene& scene)
     : scene_(scene), order_(D, scene.water.spacing), stabilise_(make_stabilisation(scene.sph)),
       gradient_(needs_gradient(stabilise_)), imposed_alpha_(lattice_sums<D>(scene.sph.eta).alpha) {
-  if (scene.manning) friction_ = Friction{scene.gravity, *scene.manning};
   build_bed();
+  build_friction();
   build_boundaries();
   build_walls();
   place_particles();

@@ -25,6 +25,7 @@ class Solver : public Method {
   void step(double t, double dt) override;
   FieldSet& fields() override { return particles_; }
   const FieldSet& fields() const override { return particles_; }
+  const Rows& rows() const override { return order_.rows(); }
   Totals totals() const override;
   StepReport report() const override { return report_; }
   std::vector<PointState> sample(const std::vector<Point>& points) const override;
@@ -35,6 +36,7 @@ class Solver : public Method {
 
  private:
   void build_bed();
+  void build_friction();
   void build_walls();
   void build_boundaries();
   void place_particles();
