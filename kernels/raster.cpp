@@ -30,10 +30,21 @@ KOKKOS_FORCEINLINE_FUNCTION void add(const SortedWater<D>& water, int j, const V
   const double depth = water.depth(j), h = water.h(j), per = 1.0 / (depth * h), inv_h = per * depth;
   const double volume = water.mass(j) * per * (D == 2 ? inv_h : 1.0);  // V / h^D
   const Vec<Lane, D> d = place - broadcast(at(water.x, j));
-  const Lane w = volume * CubicSpline<D>::at(root(dot(d, d)) * inv_h).w;
+  const Lane r2 = dot(d, d), q = r2 * rsqrt(r2 + tiny_square) * inv_h;
+  const Lane w = volume * CubicSpline<D>::at(q).w;
   sums.cover += w;
   sums.depth += w * depth;
   sums.flow += w * broadcast(at(water.v, j));
+}
+
+// Whether the kernel of fluid particle k reaches the segment of centres.
+template <int D>
+KOKKOS_FORCEINLINE_FUNCTION bool covers(const SortedWater<D>& water, int k, double xlo, double xhi, double y) {
+  const double x = water.x.x(k), along = larger(0.0, larger(xlo - x, x - xhi)), support = CubicSpline<D>::support * water.h(k);
+  double across = 0;
+  if constexpr (D == 2) across = y - water.x.y(k);
+  const bool fluid = water.kind.extent(0) == 0 || water.kind(k) == 0;
+  return along * along + across * across < support * support && fluid && water.depth(k) > 0;
 }
 
 template <int D>
@@ -43,10 +54,9 @@ KOKKOS_FORCEINLINE_FUNCTION Cover<D> gather_water(const SortedWater<D>& water, c
   const double far = reach * water.rows.largest_h(xlo, xhi, y, y);
   Cover<D> sums;
   if (!(far > 0)) return sums;
-  const bool mixed = water.kind.extent(0) > 0;
   water.rows.for_each_run(xlo, xhi, y, y, far, [&](int begin, int end) {
     for (int k = begin; k < end; ++k)
-      if ((!mixed || water.kind(k) == 0) && water.depth(k) > 0) add(water, k, place, sums);
+      if (covers(water, k, xlo, xhi, y)) add(water, k, place, sums);
   });
   return sums;
 }

@@ -2,17 +2,13 @@
 #include "src/scene/sections.hpp"
 
 namespace freshet::input {
-namespace {
-
-using Quantity = Rasters::Quantity;
-
-}  // namespace
 
 void read_rasters(Table& section, Scene& scene) {
+  using Quantity = Rasters::Quantity;
   Rasters rasters;
   Value<double> spacing = section.number("spacing", "m");
   spacing.positive();
-  rasters.spacing = spacing.otherwise(scene.water.spacing);
+  rasters.spacing = spacing.otherwise(2 * scene.water.spacing);  // a kernel is 5 spacings wide: finer cells show no more
   rasters.every = read_duration(section, "every", scene).value_or(scene.output.every);
   rasters.what = section
                      .choices<Quantity>("what", {{"depth", Quantity::depth},
