@@ -37,6 +37,7 @@ Driver::Driver(const Scene& scene, Method& method, RunOptions options)
 
 void Driver::begin() {
   initial_particles_ = fluid_count(method_.fields());
+  initial_mechanics_ = method_.mechanics();
   monitor_.start(method_.totals().mass);
   particles_.create(scene_.text, build::version);
   gauges_.begin(method_);
@@ -76,6 +77,7 @@ void Driver::step() {
   method_.step(clock_.t, stride.dt);
   clock_ = {stride.until, clock_.step + 1};
   dt_ = stride.dt;
+  strain_.record(method_.report(), clock_);
   progress_.count(method_.fields().size());
 }
 
@@ -132,8 +134,11 @@ Values Driver::run_values() const {
   values["events_done"] = {static_cast<double>(events_.outputs.done()),
                            static_cast<double>(events_.comparisons.done())};
   values["initial"] = {monitor_.initial_mass(), static_cast<double>(initial_particles_)};
+  const Mechanics& m = initial_mechanics_;
+  values["mechanics"] = {m.momentum[0], m.momentum[1], m.kinetic, m.potential};
   values["depth_l1_rel"] = l1_samples_;
   values["effort"] = {wall(), earlier_particle_steps_ + progress_.particle_steps()};
+  strain_.save(values);
   gauges_.save(values);
   run_ups_.save(values);
   rasters_.save(values);
@@ -147,9 +152,12 @@ void Driver::restore(const Checkpoint& checkpoint) {
   events_.comparisons.skip_to(static_cast<std::size_t>(run.at("events_done").at(1)));
   monitor_.start(run.at("initial").at(0));
   initial_particles_ = static_cast<int>(run.at("initial").at(1));
+  const std::vector<double>& m = run.at("mechanics");
+  initial_mechanics_ = {{m.at(0), m.at(1)}, m.at(2), m.at(3)};
   l1_samples_ = run.at("depth_l1_rel");
   earlier_wall_ = run.at("effort").at(0);
   earlier_particle_steps_ = run.at("effort").at(1);
+  strain_.restore(run);
   gauges_.restore(run);
   run_ups_.restore(run);
   rasters_.restore(run);
@@ -172,6 +180,12 @@ MassBalance Driver::mass_balance() const {
   const double unaccounted = std::abs(totals.inflow - totals.outflow - totals.straddle - totals.flux);
   if (!scene_.boundaries.empty()) mass.flux_error = unaccounted / std::max(totals.flux_gross, 1e-300);
   return mass;
+}
+
+EnergyBalance Driver::energy_balance() const {
+  const Mechanics &start = initial_mechanics_, end = method_.mechanics();
+  return {start.kinetic, start.potential, end.kinetic, end.potential,
+          {start.momentum[0], start.momentum[1]}, {end.momentum[0], end.momentum[1]}};
 }
 
 std::vector<GaugeResult> Driver::gauge_results() const {
@@ -217,6 +231,8 @@ Summary Driver::summary() const {
   s.wall = wall();
   s.particle_steps_per_s = (earlier_particle_steps_ + progress_.particle_steps()) / std::max(s.wall, 1e-9);
   s.mass = mass_balance();
+  s.energy = energy_balance();
+  s.warnings = strain_.warnings();
   s.gauges = gauge_results();
   s.run_ups = run_up_results();
   s.compared = scene_.compare.exact != nullptr;

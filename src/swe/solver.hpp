@@ -27,6 +27,7 @@ class Solver : public Method {
   const FieldSet& fields() const override { return particles_; }
   const Rows& rows() const override { return order_.rows(); }
   Totals totals() const override;
+  Mechanics mechanics() const override;
   StepReport report() const override { return report_; }
   std::vector<PointState> sample(const std::vector<Point>& points) const override;
   double highest_wet_bed(const Point& at, double radius, double min_depth) const override;

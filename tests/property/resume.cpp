@@ -34,6 +34,7 @@ class Interrupted : public Method {
   const FieldSet& fields() const override { return method_.fields(); }
   const Rows& rows() const override { return method_.rows(); }
   Totals totals() const override { return method_.totals(); }
+  Mechanics mechanics() const override { return method_.mechanics(); }
   StepReport report() const override { return method_.report(); }
   std::vector<PointState> sample(const std::vector<Point>& points) const override {
     return method_.sample(points);

@@ -22,6 +22,7 @@ class FakeMethod : public Method {
  public:
   std::function<void(long)> on_step;  // called at the end of every step, with its number
   Trouble trouble;
+  StepReport strained;  // what every step reports
 
   explicit FakeMethod(const Scene& scene)
       : scene_(scene), fields_(0), order_(scene.domain.dimension, scene.water.spacing) {
@@ -65,7 +66,12 @@ class FakeMethod : public Method {
     for (int i = 0; i < fields_.size(); ++i) totals.mass += get("mass")(i);
     return totals;
   }
-  StepReport report() const override { return {}; }
+  Mechanics mechanics() const override {
+    Mechanics m;
+    for (int i = 0; i < fields_.size(); ++i) m.kinetic += 0.5 * get("mass")(i) * get("u")(i) * get("u")(i);
+    return m;
+  }
+  StepReport report() const override { return strained; }
 
   std::vector<PointState> sample(const std::vector<Point>& points) const override {
     std::vector<PointState> states;

@@ -1,0 +1,36 @@
+// Notices a run that goes on with garbage: past its stable time step the density iteration labours and neighbour lists are
+// outgrown in every other step, long before a value leaves its limits. Looked at in spans of 100 steps.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "src/io/checkpoint.hpp"
+#include "src/method.hpp"
+#include "src/run/events.hpp"
+
+namespace freshet {
+
+class Strain {
+ public:
+  static constexpr long span = 100;            // steps
+  static constexpr double most_iterations = 2;  // mean density evaluations per cluster in a span
+  static constexpr double most_rebuilds = 0.1;  // neighbour lists made again, per step of a span
+
+  void record(const StepReport& report, const Clock& clock);  // after a step
+  std::vector<std::string> warnings() const;                  // one line per kind of strain; none: empty
+
+  void save(Values& values) const;
+  void restore(const Values& values);
+
+ private:
+  struct Kind {
+    double spans = 0, first = 0, worst = 0;  // strained spans, start of the first [s], largest value
+    void note(double value, double limit, double from);
+  };
+
+  double begun_ = 0, steps_ = 0, iterations_ = 0, rebuilds_ = 0;  // of the span at hand; rebuilds: at its start
+  double spans_ = 0;
+  Kind labour_, outgrown_;
+};
+
+}  // namespace freshet
