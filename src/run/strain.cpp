@@ -9,8 +9,8 @@ namespace {
 std::string sentence(const char* what, double strained, double spans, double first, double worst, double limit) {
   char text[400];
   std::snprintf(text, sizeof text,
-                "%s in %.0f of %.0f spans of %ld steps, first after t = %.6g s: up to %.3g per step, limit %.3g; the results may be "
-                "worthless\n  help: a smaller time.cfl; a better start where it happens from the first step on",
+                "%s in %.0f of %.0f spans of %ld steps, first after t = %.6g s: up to %.3g per step, limit %.3g\n"
+                "  help: the time step may be too long for this flow: see whether a smaller time.cfl gives the same results",
                 what, strained, spans, Strain::span, first, worst, limit);
   return text;
 }

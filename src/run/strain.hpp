@@ -13,7 +13,7 @@ namespace freshet {
 class Strain {
  public:
   static constexpr long span = 100;            // steps
-  static constexpr double most_iterations = 2;  // mean density evaluations per cluster in a span
+  static constexpr double most_iterations = 3;  // mean density evaluations per cluster in a span; sound runs reach 2
   static constexpr double most_rebuilds = 0.1;  // neighbour lists made again, per step of a span
 
   void record(const StepReport& report, const Clock& clock);  // after a step

@@ -1,5 +1,6 @@
 #include "src/scene/place.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -87,10 +88,20 @@ std::vector<Placed> place_equal_mass(const Scene& scene, const Function& depth) 
   return particles;
 }
 
+// A surface less a bed leaves rounding where it is dry: masses so far apart (1e-15) end in NaN sooner or later.
+void drop_rounding(std::vector<Placed>& particles) {
+  constexpr double rounding = 1e-9;  // of the deepest water
+  double deepest = 0;
+  for (const Placed& p : particles) deepest = std::max(deepest, p.depth);
+  const auto dry = [&](const Placed& p) { return p.depth <= rounding * deepest; };
+  particles.erase(std::remove_if(particles.begin(), particles.end(), dry), particles.end());
+}
+
 }  // namespace
 
 std::vector<Placed> place(const Scene& scene, const Function& depth) {
   auto particles = scene.water.start == Water::Start::equal_mass ? place_equal_mass(scene, depth) : place_cells(scene, depth);
+  drop_rounding(particles);
   if (particles.empty()) throw SceneError("water: no particle is wet; the depth is nowhere above " +
                                           std::to_string(scene.water.wet_above) + " m: check [water] and [bed]");
   return particles;

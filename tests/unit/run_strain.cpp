@@ -25,7 +25,7 @@ TEST_CASE("strain: a run at ease has no warning") {
   CHECK(strain.warnings().empty());
 }
 
-TEST_CASE("strain: iterations above two, and lists outgrown in a tenth of the steps, are named with when and how much") {
+TEST_CASE("strain: iterations above three, and lists outgrown in a tenth of the steps, are named with when and how much") {
   Strain strain;
   StepReport report;
   steps(strain, report, 0, 300, 1.2, 0);
@@ -33,7 +33,7 @@ TEST_CASE("strain: iterations above two, and lists outgrown in a tenth of the st
   steps(strain, report, 400, 100, 1.2, 0);
   REQUIRE(strain.warnings().size() == 1);
   CHECK_THAT(strain.warnings()[0], Catch::Contains("the density iteration laboured in 1 of 5 spans of 100 steps, first after t = 3 s: "
-                                                   "up to 3.5 per step, limit 2"));
+                                                   "up to 3.5 per step, limit 3"));
   Strain outgrown;
   steps(outgrown, report = {}, 0, 200, 1.2, 0.2);
   REQUIRE(outgrown.warnings().size() == 1);
@@ -44,7 +44,7 @@ TEST_CASE("strain: a short burst within a span is no alarm, a span not yet full 
   Strain strain;
   StepReport report;
   steps(strain, report, 0, 10, 8, 0);
-  steps(strain, report, 10, 90, 1, 0);  // mean 1.7
+  steps(strain, report, 10, 90, 2, 0);  // mean 2.6
   CHECK(strain.warnings().empty());
   steps(strain, report, 100, 99, 5, 0);
   CHECK(strain.warnings().empty());
@@ -53,13 +53,13 @@ TEST_CASE("strain: a short burst within a span is no alarm, a span not yet full 
 TEST_CASE("strain: survives a restart in the middle of a span") {
   Strain straight, first, second;
   StepReport report;
-  steps(straight, report, 0, 250, 2.5, 0.3);
+  steps(straight, report, 0, 250, 3.5, 0.3);
   report = {};
-  steps(first, report, 0, 130, 2.5, 0.3);
+  steps(first, report, 0, 130, 3.5, 0.3);
   Values values;
   first.save(values);
   second.restore(values);
-  steps(second, report, 130, 120, 2.5, 0.3);
+  steps(second, report, 130, 120, 3.5, 0.3);
   CHECK(second.warnings() == straight.warnings());
   CHECK(second.warnings().size() == 2);
 }
