@@ -1,103 +1,7 @@
 #include "kernels/walls.hpp"
 
-#include <array>
-#include <cmath>
-
 namespace freshet {
 namespace {
-
-using Line = std::vector<std::array<double, 2>>;
-
-struct WallPoint {
-  double x[2];
-  double p[3];  // projector xx, xy, yy
-  int segment;
-};
-
-WallSegment segment_between(const std::array<double, 2>& a, const std::array<double, 2>& b) {
-  WallSegment s{{a[0], a[1]}, {b[0], b[1]}, {}, {}, std::hypot(b[0] - a[0], b[1] - a[1]), 0, 0, -1};
-  for (int k = 0; k < 2; ++k) s.tangent[k] = (s.b[k] - s.a[k]) / s.length;
-  s.normal[0] = -s.tangent[1];
-  s.normal[1] = s.tangent[0];
-  return s;
-}
-
-// Projector of a point between two segments: the eigenvalues of n1 n1^T + n2 n2^T cut at one, so that it turns from
-// n n^T (straight wall) to the identity (right corner: the image through it moves exactly opposite).
-WallPoint corner_point(const double* x, const WallSegment& s, const WallSegment& t, int segment) {
-  const double bx = s.normal[0] + t.normal[0], by = s.normal[1] + t.normal[1], length = std::hypot(bx, by);
-  if (length < 1e-9) return {{x[0], x[1]}, {1, 0, 1}, segment};
-  const double nx = bx / length, ny = by / length;
-  const double cosine = s.normal[0] * t.normal[0] + s.normal[1] * t.normal[1];
-  const double across = std::fmin(1.0, 1 + cosine), along = std::fmin(1.0, 1 - cosine);
-  return {{x[0], x[1]},
-          {across * nx * nx + along * ny * ny, (across - along) * nx * ny, across * ny * ny + along * nx * nx},
-          segment};
-}
-
-WallPoint face_point(const WallSegment& s, double along, int segment) {
-  const double *n = s.normal, *e = s.tangent;
-  return {{s.a[0] + along * e[0], s.a[1] + along * e[1]}, {n[0] * n[0], n[0] * n[1], n[1] * n[1]}, segment};
-}
-
-bool same(const double* a, const double* b, double tolerance) { return std::hypot(a[0] - b[0], a[1] - b[1]) < tolerance; }
-
-// A corner of less than 180 degrees: each wall goes on by half a spacing (the two extra points), and behind it both walls
-// catch what slips through.
-void extend_corner(WallSegment& s, WallSegment& t, int first, int second, double step, std::vector<WallPoint>& points) {
-  const double turn = s.tangent[0] * t.tangent[1] - s.tangent[1] * t.tangent[0];
-  if (turn <= 1e-9) return;
-  points.push_back(face_point(s, s.length + step, first));
-  points.push_back(face_point(t, -step, second));
-  s.after = t.before = 4 * step;
-  s.next = second;
-}
-
-// first: the number of the chain's first segment.
-void sample_chain(std::vector<WallSegment>& chain, int first, bool closed, double spacing, std::vector<WallPoint>& points) {
-  const int n = static_cast<int>(chain.size());
-  for (int k = 0; k < n; ++k) {
-    WallSegment& s = chain[k];
-    const int here = first + k, next = first + (k + 1) % n;
-    const int steps = 2 * std::max(1, static_cast<int>(std::lround(s.length / spacing)));  // in step with a lattice
-    for (int i = 1; i < steps; ++i) points.push_back(face_point(s, s.length * i / steps, here));
-    if (k + 1 < n || closed) {
-      WallSegment& t = chain[next - first];
-      points.push_back(corner_point(s.b, s, t, here));
-      extend_corner(s, t, here, next, s.length / steps, points);
-    } else {
-      points.push_back(face_point(s, s.length, here));
-    }
-    if (k == 0 && !closed) points.push_back(face_point(s, 0, here));
-  }
-}
-
-struct Geometry {
-  std::vector<WallPoint> points;
-  std::vector<WallSegment> segments;
-};
-
-Geometry lay_lines(const std::vector<Line>& lines, double spacing) {
-  Geometry g;
-  for (const Line& line : lines) {
-    std::vector<WallSegment> chain;
-    for (size_t k = 0; k + 1 < line.size(); ++k) chain.push_back(segment_between(line[k], line[k + 1]));
-    const bool closed = line.size() > 2 && same(line.front().data(), line.back().data(), 1e-6 * spacing);
-    sample_chain(chain, static_cast<int>(g.segments.size()), closed, spacing, g.points);
-    g.segments.insert(g.segments.end(), chain.begin(), chain.end());
-  }
-  return g;
-}
-
-Geometry lay_ends(const std::vector<Line>& lines, double inside) {
-  Geometry g;
-  for (const Line& line : lines) {
-    const double x = line.front()[0], side = inside > x ? 1.0 : -1.0;
-    g.points.push_back({{x, 0}, {1, 0, 0}, static_cast<int>(g.segments.size())});
-    g.segments.push_back({{x, 0}, {x, 0}, {0, 0}, {side, 0}, 0, 0, 0, -1});
-  }
-  return g;
-}
 
 template <class T, class F>
 void fill(const Field<T>& field, const std::vector<WallPoint>& points, const F& value) {
@@ -106,29 +10,24 @@ void fill(const Field<T>& field, const std::vector<WallPoint>& points, const F& 
   Kokkos::deep_copy(field, host);
 }
 
-}  // namespace
-
-bool only_right_corners(const std::vector<Line>& lines) {
-  for (const Line& line : lines) {
-    const bool closed = line.size() > 2 && line.front() == line.back();
-    for (size_t k = 0; k + 2 < line.size() + closed; ++k) {
-      const WallSegment s = segment_between(line[k], line[k + 1]);
-      const WallSegment t = k + 2 < line.size() ? segment_between(line[k + 1], line[k + 2]) : segment_between(line[0], line[1]);
-      const double turn = s.tangent[0] * t.tangent[1] - s.tangent[1] * t.tangent[0];
-      if (std::abs(turn - 1) > 1e-6) return false;
-    }
-  }
-  return true;
+Stretch stretch_of(WallKind kind) {
+  if (kind == WallKind::vbp) return {1, {2, 2}};
+  return kind == WallKind::mvbp ? Stretch{2, {2, 4}} : Stretch{1, {1, 1}};
 }
 
+}  // namespace
+
 template <int D>
-Walls<D>::Walls(const std::vector<Line>& lines, WallKind kind, double spacing, const std::array<double, 2>& inside)
-    : order_(D, spacing), near_(32), kind_(kind), depth_(2 * spacing) {
-  const Geometry g = D == 1 ? lay_ends(lines, inside[0]) : lay_lines(lines, spacing);
+Walls<D>::Walls(const std::vector<WallLine>& lines, const WallOptions& options, const std::array<double, 2>& inside, double support)
+    : order_(D, options.spacing), near_(32), kind_(options.kind), stretch_(stretch_of(options.kind)),
+      // A virtual particle lies twice as far away as its wall point; a neighbour's image may stand right behind the wall.
+      reach_(support / stretch_.factor[0]), depth_(2 * options.spacing) {
+  const WallGeometry g = lay_walls(D, lines, options, inside);
   points_ = FieldSet(static_cast<int>(g.points.size()));
   const auto add = [&](const char* name, const auto& value) { fill(points_.real(name, "m", Carry::sort), g.points, value); };
   add("x", [](const WallPoint& w) { return w.x[0]; });
   add("pxx", [](const WallPoint& w) { return w.p[0]; });
+  add("share", [](const WallPoint& w) { return w.share; });
   if (D == 2) {
     add("y", [](const WallPoint& w) { return w.x[1]; });
     add("pxy", [](const WallPoint& w) { return w.p[1]; });
@@ -148,11 +47,14 @@ Walls<D>::Walls(const std::vector<Line>& lines, WallKind kind, double spacing, c
 template <int D>
 WallView<D> Walls<D>::view() const {
   WallView<D> view;
-  view.on = true;
-  view.near = near_.view();
+  view.on = kind_ != WallKind::none;
   view.mirror = kind_ == WallKind::mirror;
+  view.rows = kind_ == WallKind::rows;
+  view.stretch = stretch_;
+  view.near = near_.view();
   view.segment = points_.integer("segment");
   view.segments = segments_;
+  view.share = points_.real("share");
   view.x.x = points_.real("x");
   view.projector.xx = points_.real("pxx");
   if constexpr (D == 2) {
@@ -165,22 +67,26 @@ WallView<D> Walls<D>::view() const {
 
 template <int D>
 void Walls<D>::find(const ClusterSet& clusters, const VecField<double, D>& x, const Field<double>& h, double margin) {
-  const double reach = kind_ == WallKind::mirror ? 2.0 : 1.0;  // a neighbour's image may stand right behind the wall
-  near_.build<D>(clusters, {x, h, order_.rows(), view().x, points_.real("h"), reach, margin});
+  near_.build<D>(clusters, {x, h, order_.rows(), view().x, points_.real("h"), reach_, margin});
 }
 
 namespace {
 
-// How far a position lies on the water's side of a segment; nothing where the segment does not catch it.
-template <int D>
-KOKKOS_INLINE_FUNCTION double behind(const WallSegment& s, const Vec<double, D>& p, double deepest) {
-  double inside = (p.x - s.a[0]) * s.normal[0], along = 0;
-  if constexpr (D == 2) {
-    inside += (p.y - s.a[1]) * s.normal[1];
-    along = (p.x - s.a[0]) * s.tangent[0] + (p.y - s.a[1]) * s.tangent[1];
-  }
-  const bool caught = inside < 0 && inside > -deepest && along >= -s.before && along <= s.length + s.after;
-  return caught ? -inside : 0.0;
+// A segment as a position sees it.
+struct Side {
+  double distance2;  // m2, to its nearest point
+  double inside;     // m, on the water's side of its line
+};
+
+KOKKOS_INLINE_FUNCTION Side side_of(const WallSegment& s, const Vec<double, 1>& p) {
+  const double r = p.x - s.a[0];
+  return {r * r, r * s.normal[0]};
+}
+KOKKOS_INLINE_FUNCTION Side side_of(const WallSegment& s, const Vec<double, 2>& p) {
+  const double rx = p.x - s.a[0], ry = p.y - s.a[1];
+  const double along = clamp(rx * s.tangent[0] + ry * s.tangent[1], 0.0, s.length);
+  const double dx = rx - along * s.tangent[0], dy = ry - along * s.tangent[1];
+  return {dx * dx + dy * dy, rx * s.normal[0] + ry * s.normal[1]};
 }
 
 template <int D>
@@ -191,25 +97,46 @@ KOKKOS_INLINE_FUNCTION Vec<double, D> normal_of(const WallSegment& s) {
   return n;
 }
 
+// The segment that a position is behind: its nearest one decides; at a corner, where two are equally near, the one whose line
+// is farther away. -1 if it is in the water.
+template <int D>
+KOKKOS_INLINE_FUNCTION int segment_before(const WallView<D>& walls, int cluster, const Vec<double, D>& p, double deepest) {
+  int found = -1, last = -1;
+  Side nearest{deepest * deepest, 0};
+  walls.near.for_each(cluster, [&](int k) {
+    const int here = walls.segment(k);
+    if (here == last) return;
+    last = here;
+    const Side side = side_of(walls.segments(here), p);
+    const double tie = 1e-9 * deepest * deepest;
+    const bool same = side.distance2 < nearest.distance2 + tie && side.inside * side.inside > nearest.inside * nearest.inside;
+    if (side.distance2 < nearest.distance2 - tie || same) {
+      nearest = side;
+      found = here;
+    }
+  });
+  return nearest.inside < 0 ? found : -1;
+}
+
 }  // namespace
 
 template <int D>
 void Walls<D>::reflect(const ClusterSet& clusters, const VecField<double, D>& x, const VecField<double, D>& v,
                        const VecField<double, D>& v_pred) const {
-  const auto segments = segments_;
-  const int count = segments.extent_int(0);
+  constexpr int most_bounces = 3;  // a corner takes two
+  const WallView<D> walls = view();
   const double deepest = depth_;
-  const NeighbourView near = near_.view();
   const ClusterSet sets = clusters;
   Kokkos::parallel_for("walls::reflect", Range(0, clusters.size()), KOKKOS_LAMBDA(int c) {
-        if (near.length(c) == 0) return;
+        if (walls.near.length(c) == 0) return;
         const Lanes me = sets(c);
         for (int i = me.first; i < me.first + me.count; ++i)
-          for (int k = 0; k < count; ++k) {
-            const double depth = behind<D>(segments(k), at(x, i), deepest);
-            if (depth <= 0) continue;
-            const Vec<double, D> normal = normal_of<D>(segments(k));
-            put(x, i, at(x, i) + (2 * depth) * normal);
+          for (int bounce = 0; bounce < most_bounces; ++bounce) {
+            const int segment = segment_before<D>(walls, c, at(x, i), deepest);
+            if (segment < 0) break;
+            const WallSegment s = walls.segments(segment);
+            const Vec<double, D> normal = normal_of<D>(s);
+            put(x, i, at(x, i) + (-2 * side_of(s, at(x, i)).inside) * normal);
             for (const VecField<double, D>& velocity : {v, v_pred}) {
               const double outward = smaller(dot(at(velocity, i), normal), 0.0);
               put(velocity, i, at(velocity, i) + (-2 * outward) * normal);

@@ -1,30 +1,19 @@
-// Solid walls by modified virtual boundary particles (MVBP, Vacondio 2010, 1.3; corrected (1.8): SWE-FORMULAS section 7).
-// A wall is a row of points x_w half a spacing apart. Of each it makes two virtual particles for every fluid particle i
-// nearby, x_k = x_i - s (x_i - x_w) with s = 2 and 4, that copy i's state with the velocity mirrored:
-// v_k = v_i - 2 P v_i, m_k = m_i (h0/h_i)^(D-1). So a wall term depends on particle i and the geometry alone.
+// Solid walls along polylines, the water on their left. In all kinds but `mirror` a wall is a set of virtual particles that
+// copy the state of the fluid particle i that looks at them, with the velocity mirrored, v_k = v_i - 2 P v_i: a wall term
+// depends on i and the geometry alone.
+//   vbp     x_k = x_i - 2 (x_i - x_w) for wall points x_w half a spacing apart, m_k = m_i (h0/h_i)^(D-1)   (thesis 1.2)
+//   mvbp    also x_k = x_i - 4 (x_i - x_w), and two points more at corners (thesis 1.3; corrected (1.8): SWE-FORMULAS 7)
+//   rows    fixed points on rows dx/2, 3 dx/2, ... behind the wall, m_k = rho_i x the area that a point stands for
+//   mirror  i's image in each straight piece of wall nearby sees i's real neighbours (the same as i seeing their images).
+//           Exact for straight walls and right corners whatever the particles' positions; wrong at corners of more than
+//           180 degrees. Costs one more walk over the neighbours of the clusters at a wall.
+//   none    nothing but the reflection of what crosses the line
 #pragma once
-#include <array>
-#include <vector>
-
 #include "cellgrid/clusters.hpp"
 #include "kernels/smoothing.hpp"
+#include "kernels/wall_points.hpp"
 
 namespace freshet {
-
-// The choice beside it, mirror: particle i's image in each straight piece of wall nearby sees i's real neighbours (the same
-// as i seeing their images). Exact for straight walls and right corners whatever the particles' positions; costs one more
-// walk over the neighbours of the clusters at a wall.
-enum class WallKind { mvbp, mirror };
-
-// A straight piece of wall; the water is on the left of a -> b. In 1-D a is the wall and normal[0] points to the water.
-struct WallSegment {
-  double a[2], b[2];     // m
-  double tangent[2];     // unit
-  double normal[2];      // unit, towards the water
-  double length;         // m
-  double before, after;  // m, how far beyond a and b it still catches particles: behind corners of less than 180 degrees
-  int next;              // the segment behind the corner of less than 180 degrees at b; -1 if there is none
-};
 
 // An orthogonal map x -> R x + shift: a reflection in one wall, or in both walls of a corner.
 template <int D>
@@ -73,15 +62,32 @@ struct Image {
   }
 };
 
+// Where virtual particles lie on the way from i through a wall point, in units of their distance.
+struct Stretch {
+  int count = 0;
+  double factor[2] = {1, 1};
+};
+
 template <int D>
 struct WallView {
   bool on = false;
+  bool mirror = false;
+  bool rows = false;
+  Stretch stretch;
   VecField<double, D> x;           // m, wall points
   SymField<double, D> projector;   // P: onto the directions that the wall reflects
+  Field<double> share;             // of the virtual mass: 1, rows: the area of each point [m2] (1-D: m)
   NeighbourView near;              // wall points by cluster
-  bool mirror = false;
   Field<int> segment;              // of each wall point
   Kokkos::View<WallSegment*, Memory> segments;
+
+  // m_k, to be multiplied by the point's share.
+  KOKKOS_FORCEINLINE_FUNCTION Lane virtual_mass(Lane m, Lane h0_per_h, Lane rho) const {
+    if (rows) return rho;
+    return D == 1 ? m : m * h0_per_h;
+  }
+  // Whether the virtual masses follow the particle's own depth.
+  KOKKOS_FORCEINLINE_FUNCTION bool follows_depth() const { return on && rows; }
 
   // 1 in the lanes that stand before the segment itself, not beside it.
   KOKKOS_FORCEINLINE_FUNCTION static Lane before(const WallSegment&, const Vec<Lane, 1>&) { return 1.0; }
@@ -120,14 +126,15 @@ struct WallSums {
 
 // kernels' density pass: what the walls add to particle i's sums. mass is m_k.
 template <class K, class V, int D>
-KOKKOS_INLINE_FUNCTION void add_wall(const Vec<V, D>& to_wall, const Vec<V, D>& normal_velocity, const V& inv_h, const V& mass,
-                                     WallSums<V, D>& sum) {
+KOKKOS_INLINE_FUNCTION void add_wall(const K& kernel, const Stretch& stretch, const Vec<V, D>& to_wall,
+                                     const Vec<V, D>& normal_velocity, const V& inv_h, const V& mass, WallSums<V, D>& sum) {
   const V r2 = dot(to_wall, to_wall) + tiny_square;
   const V inv_r = rsqrt(r2), r = r2 * inv_r;
   const V per_volume = mass * power<D>(inv_h);
   const V closing = dot(to_wall, normal_velocity);
-  for (const double s : {2.0, 4.0}) {
-    const auto k = K::at(s * r * inv_h);
+  for (int n = 0; n < stretch.count; ++n) {
+    const double s = stretch.factor[n];
+    const auto k = kernel.at(s * r * inv_h);
     const V f = -k.dw * per_volume * inv_h * inv_r * (1.0 / s);
     sum.density += per_volume * k.w;
     sum.moment += f * (s * s) * r2;
@@ -135,19 +142,14 @@ KOKKOS_INLINE_FUNCTION void add_wall(const Vec<V, D>& to_wall, const Vec<V, D>& 
   }
 }
 
-// Whether mirror images are exact for these polylines: every corner is a right one with the water inside.
-bool only_right_corners(const std::vector<std::vector<std::array<double, 2>>>& lines);
-
 // Points, projectors and segments of a scene's walls; the list of points near each cluster.
 template <int D>
 class Walls {
  public:
-  // lines: polylines with the water on their left (1-D: one point each). spacing [m] = dx: points lie dx/2 apart.
-  // inside: a point of the water, which tells the side of a 1-D wall.
-  Walls(const std::vector<std::vector<std::array<double, 2>>>& lines, WallKind kind, double spacing,
-        const std::array<double, 2>& inside);
+  // inside: a point of the water, which tells the side of a 1-D wall. support: of the kernel, in units of h.
+  Walls(const std::vector<WallLine>& lines, const WallOptions& options, const std::array<double, 2>& inside, double support);
 
-  // Lists the wall points within h (1 + margin) of each cluster (mirror: 2h).
+  // Lists the wall points within reach of each cluster for h (1 + margin).
   void find(const ClusterSet& clusters, const VecField<double, D>& x, const Field<double>& h, double margin);
 
   // Puts particles that crossed a wall back: position and normal velocity reflected. clusters: those of the last find();
@@ -164,6 +166,8 @@ class Walls {
   RowOrder order_;
   NeighbourList near_;
   WallKind kind_;
+  Stretch stretch_;
+  double reach_;  // x h, how far wall points count
   Kokkos::View<WallSegment*, Memory> segments_;
   double depth_;  // m, how far behind a wall a particle is still caught
 };

@@ -1,5 +1,7 @@
 #include "kernels/swe/density.hpp"
 
+#include "kernels/swe/least_squares.hpp"
+
 namespace freshet::swe {
 namespace {
 
@@ -26,25 +28,13 @@ struct Gradient<V, 2> {
   KOKKOS_FORCEINLINE_FUNCTION V divergence() const { return ux + vy; }
 };
 
-KOKKOS_FORCEINLINE_FUNCTION void add_square(Sym<Lane, 1>& m, const Vec<Lane, 1>& fd, const Vec<Lane, 1>& d) { m.xx += fd.x * d.x; }
-KOKKOS_FORCEINLINE_FUNCTION void add_square(Sym<Lane, 2>& m, const Vec<Lane, 2>& fd, const Vec<Lane, 2>& d) {
-  m.xx += fd.x * d.x;
-  m.xy += fd.x * d.y;
-  m.yy += fd.y * d.y;
-}
-
-// Symmetric part of the L-normalised gradient B A^-1; zero where the neighbours do not span the plane.
+// Symmetric part of the L-normalised gradient B A^-1.
 KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 1> symmetric_gradient(const Gradient<Lane, 1>& b, const Sym<Lane, 1>& a, Lane) {
-  return {b.xx / larger(a.xx, Lane(1e-300))};
+  return {b.xx * usable_inverse(a).xx};
 }
 KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 2> symmetric_gradient(const Gradient<Lane, 2>& b, const Sym<Lane, 2>& a, Lane shear) {
-  constexpr double least_spread = 0.15;  // det against (trace/2)^2: 1 isotropic, 0 collinear
-  const Lane det = a.xx * a.yy - a.xy * a.xy, half = 0.5 * trace(a);
-  const Lane usable = select(least_spread * half * half < det, Lane(1.0), Lane(0.0));
-  const Lane scale = usable / larger(det, Lane(1e-300));
-  return {scale * (b.ux * a.yy - b.uy * a.xy),
-          0.5 * shear * scale * (b.uy * a.xx - b.ux * a.xy + b.vx * a.yy - b.vy * a.xy),
-          scale * (b.vy * a.xx - b.vx * a.xy)};
+  const Sym<Lane, 2> l = usable_inverse(a);
+  return {b.ux * l.xx + b.uy * l.xy, 0.5 * shear * (b.ux * l.xy + b.uy * l.yy + b.vx * l.xx + b.vy * l.xy), b.vx * l.xy + b.vy * l.yy};
 }
 
 template <int D>
@@ -56,53 +46,63 @@ struct Sums {
 };
 
 // One pair: the density, its derivative and, where wanted, the velocity gradient, all from one 1/r.
-template <bool Gradients, int D>
-KOKKOS_FORCEINLINE_FUNCTION void add_pair(const Vec<Lane, D>& x_ji, const Vec<Lane, D>& v_ji, Lane m, Lane inv_h, Sums<D>& sum) {
+template <bool Gradients, class K, int D>
+KOKKOS_FORCEINLINE_FUNCTION void add_pair(const K& kernel, const Vec<Lane, D>& x_ji, const Vec<Lane, D>& v_ji, Lane m, Lane inv_h,
+                                          Sums<D>& sum) {
   const Lane r2 = dot(x_ji, x_ji) + tiny_square;
   const Lane inv_r = rsqrt(r2);
-  const auto k = Kernel<D>::at(r2 * inv_r * inv_h);
+  const auto k = kernel.at(r2 * inv_r * inv_h);
   sum.density += m * k.w;
   const Vec<Lane, D> f_x = (-m * k.dw * inv_r) * x_ji;
   add_square(sum.spread, f_x, x_ji);
   if constexpr (Gradients) sum.slope.add(f_x, v_ji);
 }
 
+// What a cluster's particles bring to their sums.
 template <int D>
-struct SolveDensity {
+struct Here {
+  Vec<Lane, D> x, v;
+  Lane m, h0;
+};
+
+template <int D, class K>
+struct SumDensity {
+  K kernel;
   ClusterSet clusters;
   NeighbourView near;
   WallView<D> walls;
   Particles<D> p;
-  ImposedLanes imposed_lanes;
-  DensityOptions options;
+
+  KOKKOS_INLINE_FUNCTION Here<D> here(const Lanes& me) const {
+    return {me.load(p.x), me.load(p.v_pred), me.load(p.m), me.load(p.h0)};
+  }
 
   template <bool Gradients>
-  KOKKOS_INLINE_FUNCTION Sums<D> sum(int c, const Vec<Lane, D>& x, const Vec<Lane, D>& v, Lane m, Lane h0, Lane h) const {
+  KOKKOS_INLINE_FUNCTION Sums<D> sum(int c, const Here<D>& i, Lane rho, Lane h) const {
     Sums<D> s;
     const Lane inv_h = 1.0 / h;
     near.for_each(c, [&](int j) {
       Vec<Lane, D> v_ji;
-      if constexpr (Gradients) v_ji = broadcast(at(p.v_pred, j)) - v;
-      add_pair<Gradients>(broadcast(at(p.x, j)) - x, v_ji, Lane(p.m(j)), inv_h, s);
+      if constexpr (Gradients) v_ji = broadcast(at(p.v_pred, j)) - i.v;
+      add_pair<Gradients>(kernel, broadcast(at(p.x, j)) - i.x, v_ji, Lane(p.m(j)), inv_h, s);
     });
     const Lane per_volume = power<D>(inv_h);
     s.density *= per_volume;
     if (walls.on && walls.mirror)
-      add_images(c, x, v, inv_h, s.wall);
+      add_images(c, i, inv_h, s.wall);
     else if (walls.on)
-      add_walls(c, x, v, D == 1 ? m : m * h0 * inv_h, inv_h, s.wall);
+      add_walls(c, i, walls.virtual_mass(i.m, i.h0 * inv_h, rho), inv_h, s.wall);
     return s;
   }
 
   // What the neighbours' images add: the cluster's own image sees the neighbours.
-  KOKKOS_INLINE_FUNCTION void add_images(int c, const Vec<Lane, D>& x, const Vec<Lane, D>& v, Lane inv_h,
-                                         WallSums<Lane, D>& wall) const {
+  KOKKOS_INLINE_FUNCTION void add_images(int c, const Here<D>& i, Lane inv_h, WallSums<Lane, D>& wall) const {
     const Lane per_volume = power<D>(inv_h);
-    walls.for_each_image(c, x, [&](const Image<D>& image, Lane weight) {
-      const Vec<Lane, D> x_image = image(x), v_image = image.turn(v);
+    walls.for_each_image(c, i.x, [&](const Image<D>& image, Lane weight) {
+      const Vec<Lane, D> x_image = image(i.x), v_image = image.turn(i.v);
       Sums<D> s;
       near.for_each(c, [&](int j) {
-        add_pair<true>(broadcast(at(p.x, j)) - x_image, broadcast(at(p.v_pred, j)) - v_image, Lane(p.m(j)), inv_h, s);
+        add_pair<true>(kernel, broadcast(at(p.x, j)) - x_image, broadcast(at(p.v_pred, j)) - v_image, Lane(p.m(j)), inv_h, s);
       });
       wall.density += weight * per_volume * s.density;
       wall.moment += weight * per_volume * inv_h * trace(s.spread);
@@ -110,101 +110,147 @@ struct SolveDensity {
     });
   }
 
-  KOKKOS_INLINE_FUNCTION void add_walls(int c, const Vec<Lane, D>& x, const Vec<Lane, D>& v, Lane mass, Lane inv_h,
-                                        WallSums<Lane, D>& s) const {
+  KOKKOS_INLINE_FUNCTION void add_walls(int c, const Here<D>& i, Lane mass, Lane inv_h, WallSums<Lane, D>& s) const {
     walls.near.for_each(c, [&](int k) {
-      const Vec<Lane, D> normal_velocity = broadcast(walls.projector, k) * v;
-      add_wall<Kernel<D>>(x - broadcast(at(walls.x, k)), normal_velocity, inv_h, mass, s);
+      const Vec<Lane, D> normal_velocity = broadcast(walls.projector, k) * i.v;
+      add_wall(kernel, walls.stretch, i.x - broadcast(at(walls.x, k)), normal_velocity, inv_h, mass * walls.share(k), s);
     });
+  }
+};
+
+template <int D, class K>
+struct SolveDensity {
+  SumDensity<D, K> sums;
+  ImposedLanes imposed_lanes;
+  DensityOptions options;
+
+  struct State {
+    Lane rho, h, alpha, imposed, own;  // own: part of the density that the particle's own depth makes (behind walls)
+  };
+
+  KOKKOS_INLINE_FUNCTION Lane calibration(const Lanes& me) const {
+    return options.calibration.extent(0) > 0 ? me.load(options.calibration) : Lane(1.0);
   }
 
   // Newton on psi = rho - sum m W(h(rho)) (2.8)-(2.10), its factor held within [1/2, 2]. Where h is at a bound it does not
   // follow rho: alpha = 1 and the root is the sum itself. "Bounded" is decided here, once, by the last evaluation.
-  KOKKOS_INLINE_FUNCTION void solve(int c, double& evaluations, int& most, int& outgrown, int& capped, int& floored) const {
-    const Lanes me = clusters(c);
-    const Vec<Lane, D> x = me.load(p.x), v = me.load(p.v_pred);
-    const Lane m = me.load(p.m), kh = me.load(p.kh), h0 = me.load(p.h0), listed = me.load(p.h);
-    const Lane low = options.bounds.floor * h0, high = options.bounds.cap * h0;
+  KOKKOS_INLINE_FUNCTION void operator()(int c, double& evaluations, int& most, int& outgrown, int& capped, int& floored) const {
+    const Particles<D>& p = sums.p;
+    const Lanes me = sums.clusters(c);
+    const Here<D> i = sums.here(me);
+    const Lane kh = me.load(p.kh), listed = me.load(p.h), calibrated = calibration(me);
+    const Lane low = options.bounds.floor * i.h0, high = options.bounds.cap * i.h0;
     const Lane imposed = imposed_lanes(me), free = 1.0 - imposed;
     const Lane longest_listed = (1.0 + options.margin) * listed;
     Lane rho = me.load(p.rho), h = clamp(smoothing_length<D>(kh, rho), low, smaller(high, longest_listed));
     const Lane imposed_rho = rho;
-    Sums<D> s = sum<true>(c, x, v, m, h0, h);
+    Sums<D> s = sums.template sum<true>(c, i, rho, h);
     const Sums<D> first = s;  // the gradient and the rate need no more than the predicted h
-    Lane alpha, bounded;
+    Lane alpha, bounded, own;
     int n = 1;
     for (;; ++n) {
-      const Lane total = s.density + s.wall.density;
-      const Lane moment = trace(s.spread) * power<D>(1.0 / h) / h + s.wall.moment;
+      const Lane total = calibrated * (s.density + s.wall.density);
+      const Lane moment = calibrated * (trace(s.spread) * power<D>(1.0 / h) / h + s.wall.moment);
       const Lane wanted = smoothing_length<D>(kh, rho);
       bounded = select((wanted < low) | (high < wanted), Lane(1.0), Lane(0.0));
       alpha = moment / (rho * double(D));
-      const Lane slope = rho - total + rho * alpha;
+      own = sums.walls.follows_depth() ? calibrated * s.wall.density / rho : Lane(0.0);
+      const Lane slope = rho - total + rho * (alpha - own);
       // Held by the list like by a bound: then it ends as outgrown, and the list is made again.
       const Lane held = select(smaller(high, longest_listed) < wanted, Lane(1.0), bounded);
-      const Lane newton = select(Lane(0.0) < slope, rho * alpha / larger(slope, Lane(1e-300)), Lane(2.0));
-      const Lane factor = select(Lane(0.5) < held, total / rho, newton);
+      const Lane newton = select(Lane(0.0) < slope, rho * (alpha - own) / larger(slope, Lane(1e-300)), Lane(2.0));
+      const Lane sum_itself = (total / rho - own) / larger(1.0 - own, Lane(0.1));
+      const Lane factor = select(Lane(0.5) < held, sum_itself, newton);
       const Lane residual = free * larger(rho - total, total - rho) / rho;
       rho = select(Lane(0.5) < imposed, imposed_rho, rho * clamp(factor, Lane(0.5), Lane(2.0)));
       if (!any(Lane(options.tolerance) < residual) || n == most_evaluations) break;
       h = clamp(smoothing_length<D>(kh, rho), low, smaller(high, longest_listed));
-      s = sum<false>(c, x, v, m, h0, h);
+      s = sums.template sum<false>(c, i, rho, h);
     }
     const Lane wanted = clamp(smoothing_length<D>(kh, rho), low, high);
     h = select(Lane(0.5) < imposed, smoothing_length<D>(kh, rho), wanted);
     alpha = select(Lane(0.5) < imposed, Lane(options.imposed_alpha), select(Lane(0.5) < bounded, Lane(1.0), alpha));
-    write(me, {rho, h, alpha, imposed}, first, m);
+    write(me, {rho, h, alpha, imposed, own}, first, i.m);
     evaluations += n;
     most = larger(most, n);
     for (int l = 0; l < me.count; ++l) {
       const bool at_bound = lane_of(bounded, l) > 0.5 && lane_of(imposed, l) < 0.5;
       outgrown += lane_of(h, l) > lane_of(longest_listed, l);
-      capped += at_bound && lane_of(h, l) > lane_of(h0, l);
-      floored += at_bound && lane_of(h, l) < lane_of(h0, l);
+      capped += at_bound && lane_of(h, l) > lane_of(i.h0, l);
+      floored += at_bound && lane_of(h, l) < lane_of(i.h0, l);
     }
   }
-  struct State {
-    Lane rho, h, alpha, imposed;
-  };
 
   KOKKOS_INLINE_FUNCTION void write(const Lanes& me, const State& state, const Sums<D>& s, Lane m) const {
+    const Particles<D>& p = sums.p;
     const Lane inv_h = 1.0 / state.h, per_volume = power<D>(inv_h);
-    const Lane free = 1.0 - state.imposed;
+    const Lane free = 1.0 - state.imposed, calibrated = calibration(me);
     me.store(p.rho, state.rho);
     me.store(p.h, state.h);
     me.store(p.inv_h, inv_h);
-    me.store(p.pressure, 0.5 * options.gravity / state.alpha);
+    me.store(p.pressure, 0.5 * options.gravity / (options.calibration.extent(0) > 0 ? Lane(1.0) : state.alpha));
     me.store(p.celerity, root(options.gravity * state.rho));
     me.store(p.weight, m * per_volume * inv_h);
-    const Lane rate = -free * (s.slope.divergence() * per_volume * inv_h + s.wall.approach) / state.alpha;
+    const Lane closing = calibrated * (s.slope.divergence() * per_volume * inv_h + s.wall.approach);
+    const Lane rate = -free * closing / (state.alpha - state.own);
     me.store(p.growth, rate + free * options.ahead * (rate - me.load(p.rate)));
     me.store(p.rate, rate);
     if (options.gradient) me.store(p.strain, symmetric_gradient(s.slope, s.spread, free));
   }
+};
 
-  KOKKOS_INLINE_FUNCTION void operator()(int c, double& evaluations, int& most, int& outgrown, int& capped,
-                                         int& floored) const {
-    solve(c, evaluations, most, outgrown, capped, floored);
+template <int D, class K>
+struct Calibrate {
+  SumDensity<D, K> sums;
+  Field<double> calibration;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int c) const {
+    const Lanes me = sums.clusters(c);
+    const Lane rho = me.load(sums.p.rho);
+    const Sums<D> s = sums.template sum<false>(c, sums.here(me), rho, me.load(sums.p.h));
+    me.store(calibration, rho / (s.density + s.wall.density));
   }
 };
 
 }  // namespace
 
 template <int D>
-DensityReport solve_density(const ClusterSet& clusters, const NeighbourView& near, const WallView<D>& walls,
-                            const Particles<D>& p, const ImposedLanes& imposed, const DensityOptions& options) {
+DensityReport solve_density(const AnyKernel<D>& kernel, const ClusterSet& clusters, const NeighbourView& near,
+                            const WallView<D>& walls, const Particles<D>& p, const ImposedLanes& imposed,
+                            const DensityOptions& options) {
   DensityReport report;
   double evaluations = 0;
-  Kokkos::parallel_reduce("swe::density", Range(0, clusters.size()),
-                          SolveDensity<D>{clusters, near, walls, p, imposed, options}, evaluations,
-                          Kokkos::Max<int>(report.newton_max), report.outgrown, report.capped, report.floored);
+  std::visit(
+      [&](const auto& k) {
+        using K = std::decay_t<decltype(k)>;
+        Kokkos::parallel_reduce("swe::density", Range(0, clusters.size()),
+                                SolveDensity<D, K>{{k, clusters, near, walls, p}, imposed, options}, evaluations,
+                                Kokkos::Max<int>(report.newton_max), report.outgrown, report.capped, report.floored);
+      },
+      kernel);
   report.newton_mean = clusters.size() > 0 ? evaluations / clusters.size() : 0;
   return report;
 }
 
-template DensityReport solve_density<1>(const ClusterSet&, const NeighbourView&, const WallView<1>&, const Particles<1>&,
-                                        const ImposedLanes&, const DensityOptions&);
-template DensityReport solve_density<2>(const ClusterSet&, const NeighbourView&, const WallView<2>&, const Particles<2>&,
-                                        const ImposedLanes&, const DensityOptions&);
+template <int D>
+void calibrate_density(const AnyKernel<D>& kernel, const ClusterSet& clusters, const NeighbourView& near,
+                       const WallView<D>& walls, const Particles<D>& p, const Field<double>& calibration) {
+  std::visit(
+      [&](const auto& k) {
+        using K = std::decay_t<decltype(k)>;
+        Kokkos::parallel_for("swe::calibrate", Range(0, clusters.size()),
+                             Calibrate<D, K>{{k, clusters, near, walls, p}, calibration});
+      },
+      kernel);
+}
+
+#define FRESHET_INSTANTIATE(D)                                                                                                  \
+  template DensityReport solve_density<D>(const AnyKernel<D>&, const ClusterSet&, const NeighbourView&, const WallView<D>&,     \
+                                          const Particles<D>&, const ImposedLanes&, const DensityOptions&);                     \
+  template void calibrate_density<D>(const AnyKernel<D>&, const ClusterSet&, const NeighbourView&, const WallView<D>&,          \
+                                     const Particles<D>&, const Field<double>&);
+FRESHET_INSTANTIATE(1)
+FRESHET_INSTANTIATE(2)
+#undef FRESHET_INSTANTIATE
 
 }  // namespace freshet::swe

@@ -14,6 +14,7 @@ struct DensityOptions {
   bool gradient;        // the stabilisation reconstructs velocities
   double imposed_alpha;  // of particles with an imposed state
   double ahead;         // extrapolation of d rho/dt to the middle of the next step: 1/2 at equal steps, 0 = none
+  Field<double> calibration = {};  // what the sum is multiplied by (well-balanced runs, well_balanced.hpp); empty = 1
 };
 
 struct DensityReport {
@@ -26,7 +27,13 @@ struct DensityReport {
 // Reads x, v_pred, m, kh, h0, rho (predicted), h (of the list); writes rho, h, inv_h, pressure, celerity, weight, rate,
 // growth, strain.
 template <int D>
-DensityReport solve_density(const ClusterSet& clusters, const NeighbourView& near, const WallView<D>& walls,
-                            const Particles<D>& p, const ImposedLanes& imposed, const DensityOptions& options);
+DensityReport solve_density(const AnyKernel<D>& kernel, const ClusterSet& clusters, const NeighbourView& near,
+                            const WallView<D>& walls, const Particles<D>& p, const ImposedLanes& imposed,
+                            const DensityOptions& options);
+
+// Sets the calibration with which the sum at the particles' places gives the depths that they have.
+template <int D>
+void calibrate_density(const AnyKernel<D>& kernel, const ClusterSet& clusters, const NeighbourView& near,
+                       const WallView<D>& walls, const Particles<D>& p, const Field<double>& calibration);
 
 }  // namespace freshet::swe

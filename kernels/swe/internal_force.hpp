@@ -7,9 +7,10 @@
 
 namespace freshet::swe {
 
-// Reads x, v_pred, m, h0, rho, inv_h, pressure, celerity, weight, strain; writes t and signal.
+// Reads x, v_pred, m, h0, rho, h, inv_h, pressure, celerity, weight and, where the stabilisation reconstructs, strain and
+// depth_slope; writes t and signal.
 template <int D>
-void internal_force(const ClusterSet& clusters, const NeighbourView& near, const WallView<D>& walls, const Particles<D>& p,
-                    const AnyStabilisation& stabilisation);
+void internal_force(const AnyKernel<D>& kernel, const ClusterSet& clusters, const NeighbourView& near, const WallView<D>& walls,
+                    const Particles<D>& p, const AnyStabilisation& stabilisation);
 
 }  // namespace freshet::swe

@@ -12,22 +12,27 @@ struct LatticeSums {
   double alpha;    // -(1/(rho D)) sum m r W' (2.32)
 };
 
-template <int D>
-LatticeSums lattice_sums(double eta) {
+template <int D, class K>
+LatticeSums lattice_sums_of(const K& kernel, double eta) {
   LatticeSums s{1, 1};
   for (int n = 0; n < 30; ++n) {  // a fixed point: the bias falls by orders of magnitude in each turn
     const double h = smoothing_length<D>(power<D>(eta), s.density);
-    const int reach = static_cast<int>(Kernel<D>::support * h) + 1;
+    const int reach = static_cast<int>(kernel.support * h) + 1;
     double sum = 0, moment = 0;
     for (int i = -reach; i <= reach; ++i)
       for (int j = D == 1 ? 0 : -reach; j <= (D == 1 ? 0 : reach); ++j) {
-        const auto k = Kernel<D>::at(std::hypot(i, j) / h);
+        const auto k = kernel.at(std::hypot(i, j) / h);
         sum += k.w;
         moment -= k.dw * std::hypot(i, j) / h;
       }
     s = {sum / power<D>(h), moment / (sum * D)};
   }
   return s;
+}
+
+template <int D>
+LatticeSums lattice_sums(double eta, const AnyKernel<D>& kernel = CubicSpline<D>{}) {
+  return std::visit([eta](const auto& k) { return lattice_sums_of<D>(k, eta); }, kernel);
 }
 
 }  // namespace freshet::swe

@@ -23,6 +23,7 @@ struct Particles {
   Field<double> celerity;       // m/s: sqrt(g d)
   Field<double> weight;         // m norm / h^(D+1): what multiplies dw/dq as seen from a neighbour
   SymField<double, D> strain;   // 1/s, symmetric part of grad v: reconstruction of the normal velocity
+  VecField<double, D> depth_slope;  // 1, grad rho: reconstruction of the depth
   VecField<double, D> t;        // m/s2, pressure and stabilisation: (1/m) d pi_int/dx
   Field<double> signal;         // m/s, max_j |v_ij . x_ij| / r
   Field<int> id;
@@ -54,6 +55,7 @@ struct ImposedLanes {
   }
 };
 
+// What states are interpolated with; density and force take the scene's own kernel.
 template <int D>
 using Kernel = CubicSpline<D>;
 

@@ -1,5 +1,5 @@
-// Stabilisation of the pair force: Pi in m^4/(kg s^2) like p/rho^2 (SWE-FORMULAS section 6; thesis 2.5). One struct per
-// choice; to add one, write its struct, name it in the variant, in Stabilisation (src/scene/scene.hpp) and in the reader.
+// What a pair's pressures become under each stabilisation (SWE-FORMULAS section 6; thesis 2.5). One struct per choice; to
+// add one, write its struct, name it in the variant, in Stabilisation (src/scene/scene.hpp) and in the reader.
 #pragma once
 #include <variant>
 
@@ -12,42 +12,114 @@ KOKKOS_FORCEINLINE_FUNCTION V minmod(V a, V b) {
   return larger(V(0.0), smaller(a, b)) + smaller(V(0.0), larger(a, b));
 }
 
-// What a pair knows: jump = v_ij . x_ij; slope_i, slope_j = x_ij . grad v . x_ij at both ends (what linear fields would
-// give for the jump); celerities = c_i + c_j; inv = 1 / ((rho_i + rho_j) r). Each returns Pi / 2.
+// What a pair knows of both its ends, x_ij = x_i - x_j; what a choice does not use is not computed.
 template <class V>
-struct PairJump {
-  V jump, slope_i, slope_j, celerities, inv;
+struct PairState {
+  V jump;                          // m2/s, v_ij . x_ij
+  V slope_i, slope_j;              // m2/s, x_ij . grad v . x_ij: what linear fields would give for the jump
+  V celerities;                    // m/s, c_i + c_j
+  V inv;                           // 1/m2, 1 / ((rho_i + rho_j) r)
+  V r2;                            // m2
+  V lengths;                       // m, h_i + h_j
+  V rho_i, rho_j;                  // m
+  V depth_slope_i, depth_slope_j;  // m, x_ij . grad rho
+  V pressure_i, pressure_j;        // m/s2, p / (rho^2 alpha) of (2.22)
 };
 
+// What multiplies m_j G_ij(h_i) and m_j G_ij(h_j).
+template <class V>
+struct PairPressure {
+  V i, j;
+};
+
+// Pi in m^4/(kg s^2) like p / rho^2, half of it in each bracket (corrected (2.52)).
+template <class V>
+KOKKOS_FORCEINLINE_FUNCTION PairPressure<V> with_viscosity(const PairState<V>& p, V half_pi) {
+  return {p.pressure_i + half_pi, p.pressure_j + half_pi};
+}
+
+// v_r - v_l along x_ij (times r) of the velocities reconstructed from both ends (MUSCL, corrected (2.57)).
+template <class V>
+KOKKOS_FORCEINLINE_FUNCTION V reconstructed_jump(const PairState<V>& p) {
+  return p.jump - 0.5 * (minmod(p.jump, p.slope_i) + minmod(p.jump, p.slope_j));
+}
+
 struct NoStabilisation {
-  static constexpr bool gradient = false;
+  static constexpr bool velocity_gradient = false, depth_gradient = false;
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION V operator()(const PairJump<V>&) const {
-    return V(0.0);
+  KOKKOS_FORCEINLINE_FUNCTION PairPressure<V> operator()(const PairState<V>& p) const {
+    return {p.pressure_i, p.pressure_j};
+  }
+};
+
+// Artificial viscosity, corrected (2.53): Pi = (-a c mu + b mu^2)/rho with mu = h v.x/(r^2 + 0.01 h^2), approaching pairs only.
+struct ArtificialViscosity {
+  static constexpr bool velocity_gradient = false, depth_gradient = false;
+  double a, b;
+  template <class V>
+  KOKKOS_FORCEINLINE_FUNCTION PairPressure<V> operator()(const PairState<V>& p) const {
+    const V h = 0.5 * p.lengths, closing = smaller(p.jump, V(0.0));
+    const V mu = h * closing / (p.r2 + 0.01 * h * h);
+    return with_viscosity<V>(p, (b * mu * mu - 0.5 * a * p.celerities * mu) / (p.rho_i + p.rho_j));
   }
 };
 
 // Lax-Friedrichs flux, corrected (2.54): Pi = -c v_ij.x_ij / (rho r) with mean c and rho; always on.
 struct LaxFriedrichs {
-  static constexpr bool gradient = false;
+  static constexpr bool velocity_gradient = false, depth_gradient = false;
   double strength;
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION V operator()(const PairJump<V>& p) const {
-    return (-0.5 * strength) * p.celerities * p.jump * p.inv;
+  KOKKOS_FORCEINLINE_FUNCTION PairPressure<V> operator()(const PairState<V>& p) const {
+    return with_viscosity<V>(p, (-0.5 * strength) * p.celerities * p.jump * p.inv);
   }
 };
 
-// The same on the normal velocity reconstructed from both ends (MUSCL, corrected (2.57)): what remains of the jump.
+// The same on the reconstructed normal velocity.
 struct LaxFriedrichsMuscl {
-  static constexpr bool gradient = true;
+  static constexpr bool velocity_gradient = true, depth_gradient = false;
   double strength;
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION V operator()(const PairJump<V>& p) const {
-    const V remaining = p.jump - 0.5 * (minmod(p.jump, p.slope_i) + minmod(p.jump, p.slope_j));
-    return (-0.5 * strength) * p.celerities * remaining * p.inv;
+  KOKKOS_FORCEINLINE_FUNCTION PairPressure<V> operator()(const PairState<V>& p) const {
+    return with_viscosity<V>(p, (-0.5 * strength) * p.celerities * reconstructed_jump(p) * p.inv);
   }
 };
 
-using AnyStabilisation = std::variant<NoStabilisation, LaxFriedrichs, LaxFriedrichsMuscl>;
+// Depth between two states in contact, two-shock approximation on the two-rarefaction estimate (Toro; thesis (2.56)):
+// left = j, right = i; closing = u_l - u_r along x_ij. Zero where the states part so fast that the bed falls dry.
+template <class V>
+KOKKOS_FORCEINLINE_FUNCTION V two_shock_depth(V left, V right, V closing, double gravity) {
+  const V c = 0.5 * root(gravity * left) + 0.5 * root(gravity * right) + 0.25 * closing;
+  const V d0 = larger(c, V(0.0)) * larger(c, V(0.0)) / gravity, least = 1e-12 * (left + right);
+  const V base = larger(d0, least);
+  const V g_l = root(0.5 * gravity * (base + left) / (base * left)), g_r = root(0.5 * gravity * (base + right) / (base * right));
+  const V depth = larger((g_l * left + g_r * right + closing) / (g_l + g_r), V(0.0));
+  return select(least < d0, depth, V(0.0));
+}
+
+// Both ends feel p* = g d*^2 / 2 (corrected (2.55)): p / (rho^2 alpha) grows by (d*/rho)^2. Reconstructed: depths and
+// normal velocities are those of the linear fields midway, limited by minmod.
+template <bool Reconstructed>
+struct TwoShockFlux {
+  static constexpr bool velocity_gradient = Reconstructed, depth_gradient = Reconstructed;
+  double gravity;
+  template <class V>
+  KOKKOS_FORCEINLINE_FUNCTION PairPressure<V> operator()(const PairState<V>& p) const {
+    const V inv_r = p.inv * (p.rho_i + p.rho_j), difference = p.rho_i - p.rho_j;
+    V left = p.rho_j, right = p.rho_i, jump = p.jump;
+    if constexpr (Reconstructed) {
+      left += 0.5 * minmod(difference, p.depth_slope_j);
+      right -= 0.5 * minmod(difference, p.depth_slope_i);
+      jump = reconstructed_jump(p);
+    }
+    const V depth = two_shock_depth(left, right, -jump * inv_r, gravity);
+    const V in_i = depth / p.rho_i, in_j = depth / p.rho_j;
+    return {p.pressure_i * in_i * in_i, p.pressure_j * in_j * in_j};
+  }
+};
+using TwoShock = TwoShockFlux<false>;
+using TwoShockMuscl = TwoShockFlux<true>;
+
+using AnyStabilisation =
+    std::variant<NoStabilisation, ArtificialViscosity, LaxFriedrichs, LaxFriedrichsMuscl, TwoShock, TwoShockMuscl>;
 
 }  // namespace freshet::swe

@@ -1,4 +1,4 @@
-// [[boundary]] and [[wall]]: lines with the water on their left.
+// [[boundary]]: lines with the water on their left.
 #include <algorithm>
 #include <cmath>
 
@@ -92,33 +92,6 @@ void read_boundary(Table& section, Scene& scene) {
   if (source == "side") boundary.line = read_side(section, scene.domain);
   boundary.level = read_level(section, scene);
   scene.boundaries.push_back(std::move(boundary));
-}
-
-void read_wall(Table& section, Scene& scene) {
-  const std::string source = section.one_of({"line", "at"}, true);
-  if (source == "at") {
-    Value<double> at = section.number("at", "m");
-    if (scene.domain.dimension != 1)
-      at.fail("'wall.at' belongs to 1-D scenes", "write line = [[x, y], [x, y]]");
-    if (!at.optional()) return;
-    const Point point{*at.optional(), 0};
-    if (require_inside(section, "at", "the wall", point, scene)) scene.walls.push_back({{point}});
-  } else if (source == "line" && section.has_text("line")) {
-    if (section.choice<bool>("line", {{"box", true}}).optional()) add_box_walls(scene);
-  } else if (source == "line") {
-    Value<std::vector<Point>> line = section.points("line");
-    if (!line.optional()) return;
-    const std::vector<Point> points = *line.optional();
-    if (scene.domain.dimension == 1) {
-      line.fail("a 1-D scene has no lines", "write at = x, or line = \"box\" for both ends");
-    } else if (points.size() < 2) {
-      line.fail("a wall needs at least two points");
-    }
-    for (const Point& point : points) {
-      if (!line.optional() || !require_inside(section, "line", "the wall", point, scene)) return;
-    }
-    scene.walls.push_back({points});
-  }
 }
 
 }  // namespace freshet::input

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "src/scene/names.hpp"
 #include "src/scene/diagnostics.hpp"
 #include "src/scene/read.hpp"
 
@@ -82,11 +83,12 @@ std::string run_up(const RunUp& run_up, const Domain& domain) {
 
 std::string numerics(const Scene& scene) {
   const Sph& sph = scene.sph;
-  std::string out = scene.method + ", cubic spline, h/dx " + brief(sph.eta) + ", CFL " + brief(scene.cfl);
-  out += sph.stabilisation == Stabilisation::none           ? ", not stabilised"
-       : sph.stabilisation == Stabilisation::lax_friedrichs ? ", Lax-Friedrichs"
-                                                            : ", Lax-Friedrichs with MUSCL";
-  if (sph.stabilisation != Stabilisation::none && sph.strength != 1) out += " x " + brief(sph.strength);
+  std::string out = scene.method + ", " + name_in(kernel_names(), sph.kernel) + " kernel" +
+                    (sph.lattice_correction ? " (lattice correction)" : "") + ", h/dx " + brief(sph.eta) + ", CFL " +
+                    brief(scene.cfl) + ", " + name_of(sph.stabilisation);
+  if (sph.stabilisation == Stabilisation::artificial_viscosity)
+    out += " a = " + brief(sph.viscosity[0]) + ", b = " + brief(sph.viscosity[1]);
+  if (sph.strength != 1) out += " x " + brief(sph.strength);
   return out + (sph.acceleration == Acceleration::classical ? ", classical acceleration"
                                                             : ", variational acceleration");
 }

@@ -1,4 +1,4 @@
-// [scene], [domain], [sph], [time], [output], [limits]: plain numbers and choices.
+// [scene], [domain], [time], [output], [limits]: plain numbers and choices.
 #include <cmath>
 
 #include "src/reference/exact.hpp"
@@ -35,39 +35,6 @@ void read_domain(Table& section, Scene& scene) {
       domain.low[0] < domain.high[0] && (domain.dimension == 1 || domain.low[1] < domain.high[1]);
   if (!ordered) box.fail("'domain.box' must have its low corner first");
   if (!ordered) domain = {2, {0, 0}, {1, 1}};
-}
-
-bool read_sph(Table& section, Scene& scene) {
-  Sph& sph = scene.sph;
-  sph.eta = section.number("eta").within(0.5, 4.0).otherwise(scene.domain.dimension == 2 ? 1.2 : 1.0);
-  section.choice<bool>("kernel", {{"cubic", true}});
-  const bool stabilised =
-      section.choice<bool>("stabilise", {{"none", false}, {"lax-friedrichs", true}}).otherwise(true);
-  Value<bool> muscl = section.boolean("muscl");
-  if (!stabilised && muscl.otherwise(false)) {
-    muscl.fail("'sph.muscl' reconstructs for a stabilisation, and 'sph.stabilise' is 'none'");
-  }
-  sph.stabilisation = !stabilised           ? Stabilisation::none
-                    : muscl.otherwise(true) ? Stabilisation::lax_friedrichs_muscl
-                                            : Stabilisation::lax_friedrichs;
-  sph.strength = section.number("strength").at_least(0).otherwise(sph.strength);
-  sph.newton_tolerance =
-      section.number("newton_tolerance").within(1e-14, 0.1).otherwise(sph.newton_tolerance);
-  // What a density 1.6 times the initial one gives.
-  sph.h_floor = section.number("h_floor").within(0, 1).otherwise(std::pow(1.6, -1.0 / scene.domain.dimension));
-  sph.h_cap = section.number("h_cap").at_least(1).otherwise(sph.h_cap);
-  sph.walls = section
-                  .choice<Walling>("walls", {{"automatic", Walling::automatic},
-                                             {"mvbp", Walling::mvbp},
-                                             {"mirror", Walling::mirror}})
-                  .otherwise(sph.walls);
-  const auto acceleration =
-      section
-          .choice<Acceleration>("acceleration", {{"classical", Acceleration::classical},
-                                                 {"variational", Acceleration::variational}})
-          .optional();
-  sph.acceleration = acceleration.value_or(sph.acceleration);
-  return acceleration.has_value();
 }
 
 std::optional<double> read_duration(Table& section, const std::string& key, const Scene& scene) {

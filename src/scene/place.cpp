@@ -6,6 +6,7 @@
 #include <string>
 
 #include "src/errors.hpp"
+#include "src/scene/water_region.hpp"
 
 namespace freshet {
 namespace {
@@ -16,13 +17,6 @@ double finite_depth(const Function& depth, double x, double y) {
     throw SceneError("water: the depth at (" + std::to_string(x) + ", " + std::to_string(y) +
                      ") m is not a finite number; check the expressions of [water] and [bed] there");
   return d;
-}
-
-Point velocity_at(const Scene& scene, double x, double y) {
-  Point v{0, 0};
-  for (int k = 0; k < 2; ++k)
-    if (scene.water.velocity[k]) v[k] = scene.water.velocity[k](x, y);
-  return v;
 }
 
 // Cells along one side of the box.
@@ -45,21 +39,47 @@ double random_offset(int seed, std::uint64_t counter) {
   return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1;
 }
 
+// The part of a cell that is in the water and its middle: all or nothing where corners and centre agree.
+struct CutCell {
+  double part;
+  Point middle;
+};
+CutCell cut_cell(const WaterRegion& water, const Point& centre, double width, double height) {
+  constexpr int fine = 10;  // sub-cells along a side
+  int agree = water.holds(centre) ? 1 : 0;
+  for (const double sx : {-0.5, 0.5})
+    for (const double sy : {-0.5, 0.5}) agree += water.holds({centre[0] + sx * width, centre[1] + sy * height}) ? 1 : 0;
+  if (agree == 0 || agree == 5) return {agree / 5.0, centre};
+  double count = 0, x = 0, y = 0;
+  for (int k = 0; k < fine * fine; ++k) {
+    const Point p{centre[0] + ((k % fine + 0.5) / fine - 0.5) * width, centre[1] + ((k / fine + 0.5) / fine - 0.5) * height};
+    if (!water.holds(p)) continue;
+    ++count, x += p[0], y += p[1];
+  }
+  return {count / (fine * fine), count > 0 ? Point{x / count, y / count} : centre};
+}
+
 std::vector<Placed> place_cells(const Scene& scene, const Function& depth) {
+  constexpr double least_part = 0.25;  // of a cell: the water of smaller slivers along slanting walls is left out
+  const WaterRegion water(scene.walls);
   std::vector<Placed> particles;
   const bool plane = scene.domain.dimension == 2;
   const Cells along_x = cells_along(scene, 0), along_y = plane ? cells_along(scene, 1) : Cells{1, -0.5, 1};
   const double area = along_x.width * along_y.width, disorder = scene.water.disorder;
-  const double h0 = scene.sph.eta * (plane ? std::sqrt(area) : area);
+  const auto moved = [&](const Point& middle, int cell) {
+    const auto off = [&](int k) { return disorder * random_offset(scene.water.seed, 2 * static_cast<std::uint64_t>(cell) + static_cast<std::uint64_t>(k)); };
+    const Point to{middle[0] + along_x.width * off(0), middle[1] + (plane ? along_y.width * off(1) : 0.0)};
+    return disorder > 0 && water.holds(to) ? to : middle;
+  };
   for (int j = 0; j < along_y.n; ++j)
     for (int i = 0; i < along_x.n; ++i) {
-      const auto off = [&](int axis) {
-        const auto cell = static_cast<std::uint64_t>(j) * static_cast<std::uint64_t>(along_x.n) + static_cast<std::uint64_t>(i);
-        return disorder > 0 ? disorder * random_offset(scene.water.seed, 2 * cell + static_cast<std::uint64_t>(axis)) : 0.0;
-      };
-      const double x = along_x.centre(i) + along_x.width * off(0), y = along_y.centre(j) + (plane ? along_y.width * off(1) : 0);
-      const double d = finite_depth(depth, x, y);
-      if (d > scene.water.wet_above) particles.push_back({{x, y}, d, area, h0, velocity_at(scene, x, y)});
+      CutCell cell{1, {along_x.centre(i), along_y.centre(j)}};
+      if (plane && !water.everywhere()) cell = cut_cell(water, cell.middle, along_x.width, along_y.width);
+      const Point at = moved(cell.middle, j * along_x.n + i);
+      const double x = at[0], y = at[1], own = cell.part * area;
+      if (cell.part < least_part) continue;
+      const double d = finite_depth(depth, x, y), h0 = scene.sph.eta * (plane ? std::sqrt(own) : own);
+      if (d > scene.water.wet_above) particles.push_back({{x, y}, d, own, h0, velocity_at(scene, x, y)});
     }
   return particles;
 }
@@ -98,6 +118,13 @@ void drop_rounding(std::vector<Placed>& particles) {
 }
 
 }  // namespace
+
+Point velocity_at(const Scene& scene, double x, double y) {
+  Point v{0, 0};
+  for (int k = 0; k < 2; ++k)
+    if (scene.water.velocity[k]) v[k] = scene.water.velocity[k](x, y);
+  return v;
+}
 
 std::vector<Placed> place(const Scene& scene, const Function& depth) {
   auto particles = scene.water.start == Water::Start::equal_mass ? place_equal_mass(scene, depth) : place_cells(scene, depth);

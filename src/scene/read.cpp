@@ -41,6 +41,9 @@ void read_sections(Table& root, Scene& scene) {
   read_time(time, plan, scene);
   read_each(root, "boundary", scene, read_boundary);
   read_each(root, "wall", scene, read_wall);
+  note_leaks(root, scene);
+  if (scene.sph.well_balanced && !scene.boundaries.empty())
+    sph.error("well_balanced", "a well-balanced run needs a basin without open boundaries", "remove one of the two");
   read_each(root, "gauge", scene, read_gauge);
   read_each(root, "runup", scene, read_run_up);
   read_output(output, scene);

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "kernels/kernel_name.hpp"
+
 namespace freshet {
 
 using Point = std::array<double, 2>;                      // x, y [m]
@@ -47,7 +49,8 @@ struct Manning {
 
 struct Water {
   double spacing = 0;                         // m, particle spacing dx
-  enum class Start { cells, equal_mass } start = Start::cells;
+  // relaxed: cells, then pushed by their own pressure until they lie still along slanting and curved walls
+  enum class Start { cells, equal_mass, relaxed } start = Start::cells;
   Function depth;                             // m; particles are placed where it is > wet_above
   Function surface;                           // m; absent where the scene gives the depth: depth = surface - bed
   std::array<Function, 2> velocity;           // m/s; absent = at rest
@@ -57,7 +60,9 @@ struct Water {
 };
 
 struct Wall {
-  std::vector<Point> line;  // m; the water is on its left (1-D: one point; the water is on the domain's side)
+  // m; the water is on its left (1-D: one point; the water is on the domain's side). A closed line, whose last point is its
+  // first, also says where water may start: inside it if it runs counter-clockwise, else outside.
+  std::vector<Point> line;
 };
 
 struct OpenBoundary {
@@ -86,20 +91,25 @@ struct RunUp {
   std::optional<std::array<double, 2>> measured;  // m, lowest and highest
 };
 
-enum class Stabilisation { none, lax_friedrichs, lax_friedrichs_muscl };
-// automatic: mirror images where every corner of the walls is a right one with the water inside, else MVBP.
-enum class Walling { automatic, mvbp, mirror };
+enum class Stabilisation { none, artificial_viscosity, lax_friedrichs, lax_friedrichs_muscl, two_shock, two_shock_muscl };
+// automatic: mirror images where every corner of the walls is a right one with the water inside, else rows. See kernels/walls.hpp.
+enum class Walling { automatic, none, vbp, mvbp, rows, mirror };
 enum class Acceleration { classical, variational };
 
 struct Sph {
   double eta = 1.2;  // h / dx
+  KernelName kernel = KernelName::cubic;
+  bool lattice_correction = false;  // the kernel's norm makes its sum over the starting lattice exact
   Stabilisation stabilisation = Stabilisation::lax_friedrichs_muscl;
   double strength = 1.0;  // factor on the Lax-Friedrichs term
+  std::array<double, 2> viscosity{1.0, 0.0};  // a, b of the artificial viscosity (2.53)
   Acceleration acceleration = Acceleration::variational;
   double newton_tolerance = 1e-5;  // of the relative density residual
   double h_floor = 0.8;            // x h0; the reader's default is 1.6^(-1/D): what a density 1.6 times the initial one gives
   double h_cap = 3.0;              // x h0
   Walling walls = Walling::automatic;
+  bool slip = true;            // walls; false: they also hold the tangential velocity back
+  bool well_balanced = false;  // still water over any bed stays at rest to round-off (kernels/swe/well_balanced.hpp)
 };
 
 struct Compare {

@@ -34,6 +34,7 @@ void read_water_state(Table& section, Scene& scene);
 void read_time(Table& section, const ComparePlan& compare, Scene& scene);  // [time] end, cfl
 void read_boundary(Table& section, Scene& scene);                          // one [[boundary]]; needs time.end
 void read_wall(Table& section, Scene& scene);    // one [[wall]]; needs the boundaries
+void note_leaks(Table& root, const Scene& scene);  // open ends of walls; after all walls
 void read_gauge(Table& section, Scene& scene);   // one [[gauge]]
 void read_run_up(Table& section, Scene& scene);  // one [[runup]]
 void read_output(Table& section, Scene& scene);  // [output]

@@ -40,7 +40,7 @@ void read_spacing(Table& section, Scene& scene) {
   water.spacing = spacing.required();
   water.start = section
                     .choice<Water::Start>(
-                        "start", {{"cells", Water::Start::cells}, {"equal-mass", Water::Start::equal_mass}})
+                        "start", {{"cells", Water::Start::cells}, {"equal-mass", Water::Start::equal_mass}, {"relaxed", Water::Start::relaxed}})
                     .otherwise(water.start);
   water.wet_above = section.number("wet_above", "m").at_least(0).otherwise(water.wet_above);
   Value<double> disorder = section.number("disorder");

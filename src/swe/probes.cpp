@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "src/errors.hpp"
+#include "src/scene/names.hpp"
 #include "src/swe/solver.hpp"
 
 namespace freshet::swe {
@@ -13,6 +14,11 @@ Vec<double, D> to_vec(const Point& p) {
   v.x = p[0];
   if constexpr (D == 2) v.y = p[1];
   return v;
+}
+
+Names<WallKind> wall_kind_names() {
+  return {{"reflection only", WallKind::none}, {"VBP", WallKind::vbp}, {"MVBP", WallKind::mvbp}, {"rows", WallKind::rows},
+          {"mirror images", WallKind::mirror}};
 }
 
 // Calls visit(j) for the fluid particles in the runs around a point. The views are read on the host.
@@ -107,13 +113,17 @@ double Solver<D>::highest_wet_bed(const Point& point, double radius, double min_
 
 template <int D>
 std::vector<std::string> Solver<D>::features() const {
-  std::vector<std::string> names{"cubic spline", "density Newton", gradient_ ? "velocity gradient (MUSCL)" : "no reconstruction"};
-  if (stabilise_.index() != 0) names.push_back("Lax-Friedrichs");
-  if (bed_) names.push_back(bed_->variational ? "bed, variational acceleration" : "bed, classical acceleration");
+  std::vector<std::string> names{name_in(kernel_names(), scene_.sph.kernel) + " kernel", "density Newton",
+                                 name_of(scene_.sph.stabilisation)};
+  if (gradient_) names.push_back("velocity gradient");
+  if (depth_gradient_) names.push_back("depth gradient");
+  if (scene_.sph.well_balanced)
+    names.push_back("well-balanced bed");
+  else if (bed_)
+    names.push_back(bed_->variational ? "bed, variational acceleration" : "bed, classical acceleration");
   if (friction_) names.push_back(friction_->roughness2.given() ? "Manning friction by place" : "Manning friction");
   if (walls_)
-    names.push_back(std::string(walls_->kind() == WallKind::mirror ? "walls (mirror images), " : "walls (MVBP), ") +
-                    std::to_string(walls_->points()) + " points");
+    names.push_back("walls (" + name_in(wall_kind_names(), walls_->kind()) + "), " + std::to_string(walls_->points()) + " points");
   if (!boundaries_.empty()) names.push_back("open boundaries: " + std::to_string(boundaries_.size()));
   return names;
 }

@@ -3,6 +3,7 @@
 
 #include "src/errors.hpp"
 #include "src/scene/place.hpp"
+#include "src/swe/relax.hpp"
 #include "src/swe/solver.hpp"
 
 namespace freshet::swe {
@@ -50,6 +51,18 @@ void extend_past(std::vector<Point>& wall, const std::vector<freshet::OpenBounda
   extend(wall.back(), wall[wall.size() - 2]);
 }
 
+WallKind wall_kind(Walling wanted, bool exact_images) {
+  switch (wanted) {
+    case Walling::none: return WallKind::none;
+    case Walling::vbp: return WallKind::vbp;
+    case Walling::mvbp: return WallKind::mvbp;
+    case Walling::rows: return WallKind::rows;
+    case Walling::mirror: return WallKind::mirror;
+    case Walling::automatic: break;
+  }
+  return exact_images ? WallKind::mirror : WallKind::rows;
+}
+
 }  // namespace
 
 // On slopes below 1e-3 the variational acceleration differs from the classical one by 1e-6 g: the bed's curvature is not
@@ -91,22 +104,28 @@ void Solver<D>::build_walls() {
     if (D == 2) extend_past(lines.back(), scene_.boundaries, scene_.water.spacing);
   }
   const Point middle{0.5 * (scene_.domain.low[0] + scene_.domain.high[0]), 0.5 * (scene_.domain.low[1] + scene_.domain.high[1])};
-  const Walling wanted = scene_.sph.walls;
-  const bool mirror = wanted == Walling::mirror || (wanted == Walling::automatic && (D == 1 || only_right_corners(lines)));
-  walls_.emplace(lines, mirror ? WallKind::mirror : WallKind::mvbp, scene_.water.spacing, middle);
+  const WallKind kind = wall_kind(scene_.sph.walls, D == 1 || only_right_corners(lines));
+  // Rows reach as deep as the support of an h half as long again as the first.
+  const double dx = scene_.water.spacing, reach = 1.5 * support_ * scene_.sph.eta * dx;
+  walls_.emplace(lines, WallOptions{kind, dx, reach, scene_.sph.slip}, middle, support_);
+}
+
+// Depth at t = 0 over the bed as the particles feel it: filtered and tabulated.
+template <int D>
+Function Solver<D>::initial_depth() const {
+  if (!scene_.water.surface) return scene_.water.depth;
+  return [this](double x, double y) {
+    Vec<double, D> at;
+    at.x = x;
+    if constexpr (D == 2) at.y = y;
+    return scene_.water.surface(x, y) - (bed_ ? bed_->spline.at(at).b : 0.0);
+  };
 }
 
 template <int D>
 void Solver<D>::place_particles() {
-  Function depth = scene_.water.depth;
-  if (scene_.water.surface)  // over the bed as the particles feel it: filtered and tabulated
-    depth = [this](double x, double y) {
-      Vec<double, D> at;
-      at.x = x;
-      if constexpr (D == 2) at.y = y;
-      return scene_.water.surface(x, y) - (bed_ ? bed_->spline.at(at).b : 0.0);
-    };
-  const std::vector<Placed> placed = place(scene_, depth);
+  const bool relaxed = scene_.water.start == Water::Start::relaxed;
+  const std::vector<Placed> placed = relaxed ? relaxed_lattice<D>(scene_, initial_depth()) : place(scene_, initial_depth());
   particles_ = FieldSet(static_cast<int>(placed.size()));
   make_fields();
   const Particles<D> p = bind();
@@ -155,6 +174,8 @@ void Solver<D>::make_fields() {
   if (gradient_)
     for (const char* name : {"strain_xx", "strain_xy", "strain_yy"})
       if (D == 2 || name == std::string("strain_xx")) f.real(name, "1/s", Carry::no);
+  if (depth_gradient_) vector("depth_slope_x", "depth_slope_y", "1", Carry::no);
+  if (scene_.sph.well_balanced) f.real("calibration", "1", Carry::state);
   if (bed_) f.real("bed", "m", Carry::result);
   if (friction_) f.real("drag", "1/m", Carry::result);
   if (!boundaries_.empty()) f.integer("kind", "1", Carry::state);
@@ -184,6 +205,7 @@ Particles<D> Solver<D>::bind() const {
   p.signal = f.real("signal");
   p.id = f.integer("id");
   if (gradient_) p.strain = strain_field(f, dimension);
+  if (depth_gradient_) p.depth_slope = vector_field(f, "depth_slope_x", "depth_slope_y", dimension);
   return p;
 }
 

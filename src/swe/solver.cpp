@@ -1,30 +1,40 @@
 #include "src/swe/solver.hpp"
 
+#include "kernels/swe/depth_gradient.hpp"
 #include "kernels/swe/lattice.hpp"
+#include "kernels/swe/well_balanced.hpp"
 #include "src/errors.hpp"
 
 namespace freshet::swe {
 namespace {
 
-AnyStabilisation make_stabilisation(const Sph& sph) {
+AnyStabilisation make_stabilisation(const Sph& sph, double gravity) {
   switch (sph.stabilisation) {
     case Stabilisation::none: return NoStabilisation{};
+    case Stabilisation::artificial_viscosity: return ArtificialViscosity{sph.viscosity[0], sph.viscosity[1]};
     case Stabilisation::lax_friedrichs: return LaxFriedrichs{sph.strength};
     case Stabilisation::lax_friedrichs_muscl: return LaxFriedrichsMuscl{sph.strength};
+    case Stabilisation::two_shock: return TwoShock{gravity};
+    case Stabilisation::two_shock_muscl: return TwoShockMuscl{gravity};
   }
   return NoStabilisation{};
 }
 
-bool needs_gradient(const AnyStabilisation& stabilise) {
-  return std::visit([](const auto& s) { return s.gradient; }, stabilise);
+bool needs_velocity_gradient(const AnyStabilisation& stabilise) {
+  return std::visit([](const auto& s) { return s.velocity_gradient; }, stabilise);
+}
+bool needs_depth_gradient(const AnyStabilisation& stabilise) {
+  return std::visit([](const auto& s) { return s.depth_gradient; }, stabilise);
 }
 
 }  // namespace
 
 template <int D>
 Solver<D>::Solver(const Scene& scene)
-    : scene_(scene), order_(D, scene.water.spacing), stabilise_(make_stabilisation(scene.sph)),
-      gradient_(needs_gradient(stabilise_)), imposed_alpha_(lattice_sums<D>(scene.sph.eta).alpha) {
+    : scene_(scene), kernel_(make_kernel<D>(scene.sph.kernel, scene.sph.eta, scene.sph.lattice_correction)),
+      support_(std::visit([](const auto& k) { return k.support; }, kernel_)), order_(D, scene.water.spacing),
+      stabilise_(make_stabilisation(scene.sph, scene.gravity)), gradient_(needs_velocity_gradient(stabilise_)),
+      depth_gradient_(needs_depth_gradient(stabilise_)), imposed_alpha_(lattice_sums<D>(scene.sph.eta, kernel_).alpha) {
   build_bed();
   build_friction();
   build_boundaries();
@@ -32,6 +42,8 @@ Solver<D>::Solver(const Scene& scene)
   place_particles();
   for (auto& boundary : boundaries_) boundary.fill(particles_, [this] { return bind(); }, bed(), next_id_);
   find_neighbours();
+  if (scene_.sph.well_balanced)
+    calibrate_density<D>(kernel_, clusters_, neighbours_.view(), wall_view(), bind(), particles_.real("calibration"));
   evaluate(0, 0);
   for (auto& boundary : boundaries_) {
     boundary.observe(order_.rows(), bind(), kind(), bed());
@@ -53,7 +65,9 @@ void Solver<D>::step(double t, double dt) {
 template <int D>
 void Solver<D>::evaluate(double kick_dt, double ahead) {
   close_density(ahead);
-  internal_force<D>(clusters_, neighbours_.view(), wall_view(), bind(), stabilise_);
+  if (depth_gradient_) find_depth_gradient<D>(kernel_, clusters_, neighbours_.view(), bind());
+  internal_force<D>(kernel_, clusters_, neighbours_.view(), wall_view(), bind(), stabilise_);
+  if (scene_.sph.well_balanced && bed_) add_balanced_bed<D>(kernel_, clusters_, neighbours_.view(), wall_view(), bind(), *bed(), scene_.gravity);
   crossing_time_ = accelerate_and_kick<D>(bind(), motion(), particles_.size(), kick_dt);
 }
 
@@ -67,8 +81,8 @@ void Solver<D>::find_neighbours() {
 template <int D>
 void Solver<D>::list_neighbours() {
   const Particles<D> p = bind();
-  order_.measure_reach(particles_, p.h, Kernel<D>::support * (1 + list_margin));
-  neighbours_.build<D>(clusters_, {p.x, p.h, order_.rows(), p.x, p.h, Kernel<D>::support, list_margin});
+  order_.measure_reach(particles_, p.h, support_ * (1 + list_margin));
+  neighbours_.build<D>(clusters_, {p.x, p.h, order_.rows(), p.x, p.h, support_, list_margin});
   if (walls_) walls_->find(clusters_, p.x, p.h, list_margin);
 }
 
@@ -77,9 +91,10 @@ template <int D>
 void Solver<D>::close_density(double ahead) {
   constexpr int most_lists = 20;  // each may grow h by the margin at most before it is made again
   const DensityOptions options{scene_.gravity, scene_.sph.newton_tolerance, list_margin,
-                               {scene_.sph.h_floor, scene_.sph.h_cap}, gradient_, imposed_alpha_, ahead};
+                               {scene_.sph.h_floor, scene_.sph.h_cap}, gradient_, imposed_alpha_, ahead,
+                               scene_.sph.well_balanced ? particles_.real("calibration") : Field<double>()};
   for (int lists = 0; lists < most_lists; ++lists) {
-    const DensityReport r = solve_density<D>(clusters_, neighbours_.view(), wall_view(), bind(), {kind()}, options);
+    const DensityReport r = solve_density<D>(kernel_, clusters_, neighbours_.view(), wall_view(), bind(), {kind()}, options);
     report_.newton_mean = r.newton_mean;
     report_.newton_max = r.newton_max;
     report_.capped = r.capped;
@@ -100,7 +115,8 @@ double Solver<D>::stable_dt() const {
 
 template <int D>
 MotionOptions<D> Solver<D>::motion() const {
-  return {scene_.gravity, {scene_.sph.h_floor, scene_.sph.h_cap}, bed(), friction_,
+  // In a well-balanced run t holds the bed's part already.
+  return {scene_.gravity, {scene_.sph.h_floor, scene_.sph.h_cap}, scene_.sph.well_balanced ? std::nullopt : bed(), friction_,
           friction_ ? particles_.real("drag") : Field<double>(), {kind()}};
 }
 

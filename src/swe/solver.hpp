@@ -40,6 +40,7 @@ class Solver : public Method {
   void build_friction();
   void build_walls();
   void build_boundaries();
+  Function initial_depth() const;
   void place_particles();
   void make_fields();
   Particles<D> bind() const;
@@ -53,12 +54,14 @@ class Solver : public Method {
   WallView<D> wall_view() const { return walls_ ? walls_->view() : WallView<D>{}; }
 
   Scene scene_;
+  AnyKernel<D> kernel_;
+  double support_;  // of the kernel, x h
   FieldSet particles_;
   RowOrder order_;
   ClusterSet clusters_;
   NeighbourList neighbours_;
   AnyStabilisation stabilise_;
-  bool gradient_ = false;
+  bool gradient_ = false, depth_gradient_ = false;
   double imposed_alpha_ = 1;
   std::optional<Bed<D>> bed_;
   std::optional<Friction> friction_;

@@ -143,6 +143,8 @@ class Cloud {
   NeighbourList neighbours;
   std::optional<Walls<D>> walls;
   int lists = 0;  // made by the last solve()
+  AnyKernel<D> kernel = CubicSpline<D>{};
+  double support() const { return std::visit([](const auto& k) { return k.support; }, kernel); }
 
   Cloud(const std::vector<Grain>& grains, double spacing)
       : fields(static_cast<int>(grains.size())), order(D, spacing), spacing_(spacing) {
@@ -152,7 +154,7 @@ class Cloud {
   }
 
   void add_walls(const std::vector<Polyline>& lines, const Point& inside, WallKind kind = WallKind::mvbp) {
-    walls.emplace(lines, kind, spacing_, inside);
+    walls.emplace(lines, WallOptions{kind, spacing_, 1.5 * support() * 1.2 * spacing_, true}, inside, support());
   }
 
   swe::Particles<D> bind() const {
@@ -184,7 +186,7 @@ class Cloud {
       p.h(i) = clamp(swe::smoothing_length<D>(p.kh(i), p.rho(i)), options.bounds.floor * p.h0(i), options.bounds.cap * p.h0(i));
     for (lists = 1;; ++lists) {
       list(options.margin);
-      const auto report = swe::solve_density<D>(clusters, neighbours.view(), wall_view(), p, {}, options);
+      const auto report = swe::solve_density<D>(kernel, clusters, neighbours.view(), wall_view(), p, {}, options);
       if (report.outgrown == 0 || lists == 40) return report;
     }
   }
@@ -196,7 +198,7 @@ class Cloud {
   }
 
   void force(const swe::AnyStabilisation& stabilise) {
-    swe::internal_force<D>(clusters, neighbours.view(), wall_view(), bind(), stabilise);
+    swe::internal_force<D>(kernel, clusters, neighbours.view(), wall_view(), bind(), stabilise);
   }
 
   // The field's values in the order of the ids.
@@ -230,8 +232,8 @@ class Cloud {
 
   void list(double margin) {
     const swe::Particles<D> p = bind();
-    order.measure_reach(fields, p.h, swe::Kernel<D>::support * (1 + margin));
-    neighbours.build<D>(clusters, {p.x, p.h, order.rows(), p.x, p.h, swe::Kernel<D>::support, margin});
+    order.measure_reach(fields, p.h, support() * (1 + margin));
+    neighbours.build<D>(clusters, {p.x, p.h, order.rows(), p.x, p.h, support(), margin});
     if (walls) walls->find(clusters, p.x, p.h, margin);
   }
 

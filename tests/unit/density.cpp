@@ -199,7 +199,7 @@ TEST_CASE("density: growth extrapolates the rate to the middle of the next step"
   for (int i = 0; i < cloud.fields.size(); ++i) p.rate(i) *= 0.5;  // as if it had been half as large a step ago
   auto options = test::tight(2);
   options.ahead = 0.5;
-  swe::solve_density<2>(cloud.clusters, cloud.neighbours.view(), cloud.wall_view(), p, {}, options);
+  swe::solve_density<2>(cloud.kernel, cloud.clusters, cloud.neighbours.view(), cloud.wall_view(), p, {}, options);
   const auto rate = cloud.by_id("depth_rate"), growth = cloud.by_id("depth_growth");
   for (size_t i = 0; i < grains.size(); ++i) {
     CHECK(rate[i] == Approx(earlier[i]).epsilon(1e-9));  // the root again

@@ -1,0 +1,67 @@
+#include "kernels/swe/well_balanced.hpp"
+
+namespace freshet::swe {
+namespace {
+
+template <int D, class K>
+struct BalancedBed {
+  K kernel;
+  ClusterSet clusters;
+  NeighbourView near;
+  WallView<D> walls;
+  Particles<D> p;
+  Field<double> level;
+  double half_gravity;
+
+  // sum over the neighbours as seen from x: the particle's own place, or its image's.
+  KOKKOS_INLINE_FUNCTION Vec<Lane, D> sum(int c, const Vec<Lane, D>& x, Lane b, Lane inv_h) const {
+    const Lane per_slope = power<D>(inv_h) * inv_h;
+    Vec<Lane, D> t;
+    near.for_each(c, [&](int j) {
+      const Vec<Lane, D> x_ij = x - broadcast(at(p.x, j));
+      const Lane r2 = dot(x_ij, x_ij) + tiny_square, inv_r = rsqrt(r2), r = r2 * inv_r;
+      const Lane slopes = p.m(j) * per_slope * kernel.slope(r * inv_h) + p.weight(j) * kernel.slope(r * Lane(p.inv_h(j)));
+      t += ((level(j) - b) * (half_gravity / p.rho(j)) * slopes * inv_r) * x_ij;
+    });
+    return t;
+  }
+
+  KOKKOS_INLINE_FUNCTION void operator()(int c) const {
+    const Lanes me = clusters(c);
+    const Vec<Lane, D> x = me.load(p.x);
+    const Lane b = me.load(level), inv_h = me.load(p.inv_h);
+    Vec<Lane, D> t = me.load(p.t) + sum(c, x, b, inv_h);
+    if (walls.on && walls.mirror)
+      walls.for_each_image(c, x, [&](const Image<D>& image, Lane weight) {
+        t += weight * image.turn_back(sum(c, image(x), b, inv_h));
+      });
+    me.store(p.t, t);
+  }
+};
+
+}  // namespace
+
+template <int D>
+void add_balanced_bed(const AnyKernel<D>& kernel, const ClusterSet& clusters, const NeighbourView& near, const WallView<D>& walls,
+                      const Particles<D>& p, const Bed<D>& bed, double gravity) {
+  const Bed<D> ground = bed;
+  const VecField<double, D> x = p.x;
+  const ClusterSet sets = clusters;
+  Kokkos::parallel_for("swe::bed_level", Range(0, clusters.size()), KOKKOS_LAMBDA(int c) {
+        const Lanes me = sets(c);
+        me.store(ground.level, ground.spline.at(me.load(x)).b);
+      });
+  std::visit(
+      [&](const auto& k) {
+        Kokkos::parallel_for("swe::balanced_bed", Range(0, clusters.size()),
+                             BalancedBed<D, std::decay_t<decltype(k)>>{k, clusters, near, walls, p, bed.level, 0.5 * gravity});
+      },
+      kernel);
+}
+
+template void add_balanced_bed<1>(const AnyKernel<1>&, const ClusterSet&, const NeighbourView&, const WallView<1>&,
+                                  const Particles<1>&, const Bed<1>&, double);
+template void add_balanced_bed<2>(const AnyKernel<2>&, const ClusterSet&, const NeighbourView&, const WallView<2>&,
+                                  const Particles<2>&, const Bed<2>&, double);
+
+}  // namespace freshet::swe

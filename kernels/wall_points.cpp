@@ -1,0 +1,181 @@
+#include "kernels/wall_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace freshet {
+namespace {
+
+constexpr double small_turn = 0.5;  // rad: below it two pieces are one curve, not a corner
+
+WallSegment segment_between(const std::array<double, 2>& a, const std::array<double, 2>& b) {
+  WallSegment s{{a[0], a[1]}, {b[0], b[1]}, {}, {}, std::hypot(b[0] - a[0], b[1] - a[1]), 0, 0, -1};
+  for (int k = 0; k < 2; ++k) s.tangent[k] = (s.b[k] - s.a[k]) / s.length;
+  s.normal[0] = -s.tangent[1];
+  s.normal[1] = s.tangent[0];
+  return s;
+}
+
+// Angle from s to t, positive where the water is inside the corner (less than 180 degrees).
+double turn_between(const WallSegment& s, const WallSegment& t) {
+  return std::atan2(s.tangent[0] * t.tangent[1] - s.tangent[1] * t.tangent[0],
+                    s.tangent[0] * t.tangent[0] + s.tangent[1] * t.tangent[1]);
+}
+
+// Projector of a point between two segments: the eigenvalues of n1 n1^T + n2 n2^T cut at one, so that it turns from
+// n n^T (straight wall) to the identity (right corner: the image through it moves exactly opposite).
+WallPoint corner_point(const double* x, const WallSegment& s, const WallSegment& t, int segment) {
+  const double bx = s.normal[0] + t.normal[0], by = s.normal[1] + t.normal[1], length = std::hypot(bx, by);
+  if (length < 1e-9) return {{x[0], x[1]}, {1, 0, 1}, 1, segment};
+  const double nx = bx / length, ny = by / length;
+  const double cosine = s.normal[0] * t.normal[0] + s.normal[1] * t.normal[1];
+  const double across = std::fmin(1.0, 1 + cosine), along = std::fmin(1.0, 1 - cosine);
+  return {{x[0], x[1]},
+          {across * nx * nx + along * ny * ny, (across - along) * nx * ny, across * ny * ny + along * nx * nx},
+          1,
+          segment};
+}
+
+// A point `along` the segment from a, `depth` behind it.
+WallPoint face_point(const WallSegment& s, double along, double depth, int segment) {
+  const double *n = s.normal, *e = s.tangent;
+  return {{s.a[0] + along * e[0] - depth * n[0], s.a[1] + along * e[1] - depth * n[1]},
+          {n[0] * n[0], n[0] * n[1], n[1] * n[1]},
+          1,
+          segment};
+}
+
+double distance(const double* x, const WallSegment& s) {
+  const double rx = x[0] - s.a[0], ry = x[1] - s.a[1];
+  const double along = std::clamp(rx * s.tangent[0] + ry * s.tangent[1], 0.0, s.length);
+  return std::hypot(rx - along * s.tangent[0], ry - along * s.tangent[1]);
+}
+
+// One polyline's segments, first .. first + count - 1 of all.
+struct Chain {
+  int first, count;
+  bool closed;
+  int behind(int k) const { return k + 1 < first + count ? k + 1 : (closed ? first : -1); }
+  int ahead(int k) const { return k > first ? k - 1 : (closed ? first + count - 1 : -1); }
+};
+
+// Corners of less than 180 degrees: images of one wall are seen beyond the corner, and in both walls together.
+void join_corner(std::vector<WallSegment>& all, int k, int next, double step) {
+  if (turn_between(all[k], all[next]) <= 1e-9) return;
+  all[k].after = all[next].before = 4 * step;
+  all[k].next = next;
+}
+
+// Wall points half a spacing apart, with the corner points; `extra`: at corners of less than 180 degrees each wall goes on
+// by half a spacing more.
+void lay_face(std::vector<WallSegment>& all, const Chain& chain, double spacing, bool extra, std::vector<WallPoint>& points) {
+  for (int k = chain.first; k < chain.first + chain.count; ++k) {
+    const WallSegment& s = all[k];
+    const int next = chain.behind(k), steps = 2 * std::max(1, static_cast<int>(std::lround(s.length / spacing)));
+    const double step = s.length / steps;  // in step with a lattice
+    for (int i = 1; i < steps; ++i) points.push_back(face_point(s, i * step, 0, k));
+    if (next >= 0) {
+      points.push_back(corner_point(s.b, s, all[next], k));
+      join_corner(all, k, next, step);
+      if (extra && turn_between(s, all[next]) > 1e-9) {
+        points.push_back(face_point(s, s.length + step, 0, k));
+        points.push_back(face_point(all[next], -step, 0, next));
+      }
+    } else {
+      points.push_back(face_point(s, s.length, 0, k));
+    }
+    if (chain.ahead(k) < 0) points.push_back(face_point(s, 0, 0, k));
+  }
+}
+
+// What of a row's point is this segment's: all, half where another segment is as near, nothing where one is nearer.
+double own_part(const std::vector<WallSegment>& all, int k, const double* x, double spacing) {
+  const double own = distance(x, all[k]), tie = 1e-6 * spacing;
+  double part = 1;
+  for (int other = 0; other < static_cast<int>(all.size()); ++other) {
+    if (other == k) continue;
+    const double d = distance(x, all[other]);
+    if (d < own - tie) return 0;
+    if (d < own + tie) part = 0.5;
+  }
+  return part;
+}
+
+// Rows of points behind segment k, on the lattice of its own cells; round corners with the water inside they go on as far as
+// they go deep. Along curves the outer rows are longer (the inner ones shorter) by depth x tan(turn/2) at each end.
+void lay_rows(const std::vector<WallSegment>& all, const Chain& chain, int k, const WallOptions& o, std::vector<WallPoint>& points) {
+  const WallSegment& s = all[k];
+  const int cells = std::max(1, static_cast<int>(std::lround(s.length / o.spacing)));
+  const int rows = static_cast<int>(std::ceil(o.reach / o.spacing)), next = chain.behind(k), previous = chain.ahead(k);
+  const double at_a = previous >= 0 ? turn_between(all[previous], s) : 0, at_b = next >= 0 ? turn_between(s, all[next]) : 0;
+  const double step = s.length / cells;
+  double stretch = 0;
+  for (const double turn : {at_a, at_b}) stretch += std::abs(turn) < small_turn ? std::tan(turn / 2) : 0;
+  for (int row = 0; row < rows; ++row) {
+    const double depth = (row + 0.5) * o.spacing, curved = std::max(0.0, 1 + depth * stretch / s.length);
+    for (int i = at_a > small_turn ? -rows : 0; i < (at_b > small_turn ? cells + rows : cells); ++i) {
+      WallPoint point = face_point(s, (i + 0.5) * step, depth, k);
+      if (i < 0 || i >= cells) {
+        const WallPoint corner = corner_point(s.a, i < 0 ? all[previous] : s, i < 0 ? s : all[next], k);
+        std::copy(corner.p, corner.p + 3, point.p);
+      }
+      point.share = own_part(all, k, point.x, o.spacing) * step * o.spacing * curved;
+      if (point.share > 0) points.push_back(point);
+    }
+  }
+}
+
+WallGeometry lay_ends(const std::vector<WallLine>& lines, const WallOptions& o, double inside) {
+  WallGeometry g;
+  for (const WallLine& line : lines) {
+    const double x = line.front()[0], side = inside > x ? 1.0 : -1.0;
+    const int segment = static_cast<int>(g.segments.size());
+    if (o.kind == WallKind::rows)
+      for (double depth = 0.5 * o.spacing; depth < o.reach; depth += o.spacing)
+        g.points.push_back({{x - side * depth, 0}, {1, 0, 0}, o.spacing, segment});
+    else
+      g.points.push_back({{x, 0}, {1, 0, 0}, 1, segment});
+    g.segments.push_back({{x, 0}, {x, 0}, {0, 0}, {side, 0}, 0, 0, 0, -1});
+  }
+  return g;
+}
+
+WallGeometry lay_lines(const std::vector<WallLine>& lines, const WallOptions& o) {
+  WallGeometry g;
+  std::vector<Chain> chains;
+  for (const WallLine& line : lines) {
+    const bool closed = line.size() > 2 && std::hypot(line.front()[0] - line.back()[0], line.front()[1] - line.back()[1]) < 1e-6 * o.spacing;
+    chains.push_back({static_cast<int>(g.segments.size()), static_cast<int>(line.size()) - 1, closed});
+    for (size_t k = 0; k + 1 < line.size(); ++k) g.segments.push_back(segment_between(line[k], line[k + 1]));
+  }
+  for (const Chain& chain : chains) {
+    if (o.kind != WallKind::rows) lay_face(g.segments, chain, o.spacing, o.kind != WallKind::vbp, g.points);
+    for (int k = chain.first; o.kind == WallKind::rows && k < chain.first + chain.count; ++k)
+      lay_rows(g.segments, chain, k, o, g.points);
+  }
+  return g;
+}
+
+}  // namespace
+
+WallGeometry lay_walls(int dimension, const std::vector<WallLine>& lines, const WallOptions& options,
+                       const std::array<double, 2>& inside) {
+  WallGeometry g = dimension == 1 ? lay_ends(lines, options, inside[0]) : lay_lines(lines, options);
+  if (!options.slip)
+    for (WallPoint& point : g.points) point.p[0] = 1, point.p[1] = 0, point.p[2] = 1;
+  return g;
+}
+
+bool only_right_corners(const std::vector<WallLine>& lines) {
+  for (const WallLine& line : lines) {
+    const bool closed = line.size() > 2 && line.front() == line.back();
+    for (size_t k = 0; k + 2 < line.size() + closed; ++k) {
+      const WallSegment s = segment_between(line[k], line[k + 1]);
+      const WallSegment t = k + 2 < line.size() ? segment_between(line[k + 1], line[k + 2]) : segment_between(line[0], line[1]);
+      if (std::abs(turn_between(s, t) - std::acos(0.0)) > 1e-6) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace freshet

@@ -1,0 +1,32 @@
+#include "src/scene/names.hpp"
+
+namespace freshet {
+
+const Names<KernelName>& kernel_names() {
+  static const Names<KernelName> names{{"cubic", KernelName::cubic},
+                                       {"quartic", KernelName::quartic},
+                                       {"quintic", KernelName::quintic},
+                                       {"gaussian", KernelName::gaussian},
+                                       {"wendland", KernelName::wendland}};
+  return names;
+}
+
+const Names<Walling>& walling_names() {
+  static const Names<Walling> names{{"automatic", Walling::automatic}, {"none", Walling::none}, {"vbp", Walling::vbp},
+                                    {"mvbp", Walling::mvbp},           {"rows", Walling::rows}, {"mirror", Walling::mirror}};
+  return names;
+}
+
+std::string name_of(Stabilisation stabilisation) {
+  switch (stabilisation) {
+    case Stabilisation::none: return "not stabilised";
+    case Stabilisation::artificial_viscosity: return "artificial viscosity";
+    case Stabilisation::lax_friedrichs: return "Lax-Friedrichs";
+    case Stabilisation::lax_friedrichs_muscl: return "Lax-Friedrichs with MUSCL";
+    case Stabilisation::two_shock: return "two-shock";
+    case Stabilisation::two_shock_muscl: return "two-shock with MUSCL";
+  }
+  return "";
+}
+
+}  // namespace freshet
