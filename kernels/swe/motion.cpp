@@ -28,6 +28,12 @@ KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, D> bed_acceleration(const Bed<D>& bed, con
   return -push * b.slope;
 }
 
+// Time in which a particle moves by less than 2 h, from its speed and its acceleration: v t + a t^2/2 <= 2 h.
+template <int D>
+KOKKOS_FORCEINLINE_FUNCTION Lane free_path(Lane h, const Vec<Lane, D>& v, const Vec<Lane, D>& a) {
+  return 2.0 * h / (root(dot(v, v)) + root(h * root(dot(a, a))) + 1e-100);
+}
+
 }  // namespace
 
 template <int D>
@@ -65,12 +71,14 @@ double accelerate_and_kick(const Particles<D>& p, const MotionOptions<D>& option
   const Lane g = options.gravity;
   const Field<double> drag_field = options.drag;
   const ImposedLanes imposed = options.imposed;
+  const bool walled = options.walled;
   double crossing = 0;
   Kokkos::parallel_reduce(
       "swe::accelerate", blocks(n),
       KOKKOS_LAMBDA(int block_index, double& least) {
         const Lanes me = block(block_index, n);
-        least = smaller(least, smallest(me.load(f.h) / (me.load(f.celerity) + me.load(f.signal))));
+        const Lane h = me.load(f.h);
+        least = smaller(least, smallest(h / (me.load(f.celerity) + me.load(f.signal))));
         Vec<Lane, D> a = Lane(-1.0) * me.load(f.t);
         if (with_bed) a += bed_acceleration<D>(*bed, me, f, a, g);
         const Lane free = 1.0 - imposed(me);
@@ -83,6 +91,7 @@ double accelerate_and_kick(const Particles<D>& p, const MotionOptions<D>& option
           v = slowed<D>(v, free * drag, Lane(kick_dt));
         }
         me.store(f.v, v);
+        if (walled) least = smaller(least, smallest(free_path(h, v, a)));
       },
       Kokkos::Min<double>(crossing));
   return crossing;

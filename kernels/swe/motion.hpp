@@ -53,13 +53,16 @@ struct MotionOptions {
   std::optional<Friction> friction;
   Field<double> drag;   // 1/m, with friction
   ImposedLanes imposed; // these move at their imposed velocity
+  bool walled = false;  // a step may not carry a particle past the walls that it has not met yet
 };
 
 // v(t) -> v(t + dt/2), x -> x(t + dt); predicts v, rho, h at t + dt.
 template <int D>
 void kick_and_drift(const Particles<D>& p, const MotionOptions<D>& options, int n, double dt);
 
-// a from t and the bed; v -> v + a kick_dt; returns min h / (c + signal) [s], the time a signal takes to cross h.
+// a from t and the bed; v -> v + a kick_dt; returns min h / (c + signal) [s], the time a signal takes to cross h,
+// between walls also the time in which a particle moves by 2 h, so that it does not jump past a wall that it has not met: at CFL
+// 0.4 this shortens the steps of thin water with a Froude number above 2.
 template <int D>
 double accelerate_and_kick(const Particles<D>& p, const MotionOptions<D>& options, int n, double kick_dt);
 

@@ -232,7 +232,7 @@ Summary Driver::summary() const {
   s.particle_steps_per_s = (earlier_particle_steps_ + progress_.particle_steps()) / std::max(s.wall, 1e-9);
   s.mass = mass_balance();
   s.energy = energy_balance();
-  s.warnings = strain_.warnings();
+  s.warnings = strain_.warnings(method_.report());
   s.gauges = gauge_results();
   s.run_ups = run_up_results();
   s.compared = scene_.compare.exact != nullptr;

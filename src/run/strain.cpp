@@ -9,7 +9,7 @@ namespace {
 std::string sentence(const char* what, double strained, double spans, double first, double worst, double limit) {
   char text[400];
   std::snprintf(text, sizeof text,
-                "%s in %.0f of %.0f spans of %ld steps, first after t = %.6g s: up to %.3g per step, limit %.3g\n"
+                "%s in %.0f of %.0f spans of %ld steps (the last may be shorter), first after t = %.6g s: up to %.3g per step, limit %.3g\n"
                 "  help: the time step may be too long for this flow: see whether a smaller time.cfl gives the same results",
                 what, strained, spans, Strain::span, first, worst, limit);
   return text;
@@ -24,23 +24,29 @@ void Strain::Kind::note(double value, double limit, double from) {
   ++spans;
 }
 
+void Strain::judge(const StepReport& report) {
+  ++spans_;
+  labour_.note(iterations_ / steps_, most_iterations, begun_);
+  outgrown_.note((static_cast<double>(report.rebuilds) - rebuilds_) / steps_, most_rebuilds, begun_);
+}
+
 void Strain::record(const StepReport& report, const Clock& clock) {
   ++steps_;
   iterations_ += report.newton_mean;
   if (steps_ < span) return;
-  ++spans_;
-  labour_.note(iterations_ / steps_, most_iterations, begun_);
-  outgrown_.note((static_cast<double>(report.rebuilds) - rebuilds_) / steps_, most_rebuilds, begun_);
+  judge(report);
   begun_ = clock.t, steps_ = 0, iterations_ = 0, rebuilds_ = static_cast<double>(report.rebuilds);
 }
 
-std::vector<std::string> Strain::warnings() const {
+std::vector<std::string> Strain::warnings(const StepReport& report) const {
+  Strain whole = *this;
+  if (steps_ >= least) whole.judge(report);
   std::vector<std::string> lines;
   const auto add = [&](const char* what, const Kind& kind, double limit) {
-    if (kind.spans > 0) lines.push_back(sentence(what, kind.spans, spans_, kind.first, kind.worst, limit));
+    if (kind.spans > 0) lines.push_back(sentence(what, kind.spans, whole.spans_, kind.first, kind.worst, limit));
   };
-  add("the density iteration laboured", labour_, most_iterations);
-  add("smoothing lengths outgrew their neighbour lists", outgrown_, most_rebuilds);
+  add("the density iteration laboured", whole.labour_, most_iterations);
+  add("smoothing lengths outgrew their neighbour lists", whole.outgrown_, most_rebuilds);
   return lines;
 }
 
