@@ -196,7 +196,7 @@ struct SolveDensity {
     me.store(p.weight, m * per_volume * inv_h);
     const Lane closing = calibrated * (s.slope.divergence() * per_volume * inv_h + s.wall.approach);
     const Lane rate = -free * closing / (state.alpha - state.own);
-    me.store(p.growth, rate + free * options.ahead * (rate - me.load(p.rate)));
+    me.store(p.growth, options.ahead > 0 ? rate + free * options.ahead * (rate - me.load(p.rate)) : rate);
     me.store(p.rate, rate);
     if (options.gradient) me.store(p.strain, symmetric_gradient(s.slope, s.spread, free));
   }

@@ -18,6 +18,21 @@ void write(JsonWriter& out, const MassBalance& mass) {
       .end();
 }
 
+void write(JsonWriter& out, const EnergyBalance& energy) {
+  out.begin("energy")
+      .value("kinetic_start_m5_s2", energy.kinetic_start)
+      .value("potential_start_m5_s2", energy.potential_start)
+      .value("kinetic_end_m5_s2", energy.kinetic_end)
+      .value("potential_end_m5_s2", energy.potential_end)
+      .end();
+  out.begin("momentum")
+      .value("x_start_m4_s", energy.momentum_start.first)
+      .value("y_start_m4_s", energy.momentum_start.second)
+      .value("x_end_m4_s", energy.momentum_end.first)
+      .value("y_end_m4_s", energy.momentum_end.second)
+      .end();
+}
+
 void write(JsonWriter& out, const GaugeResult& gauge) {
   out.begin(gauge.name)
       .value("rmse", gauge.rmse)
@@ -144,7 +159,10 @@ std::string json(const Summary& s) {
   out.value("steps", s.steps).value("list_rebuilds", s.list_rebuilds).value("simulated_s", s.simulated);
   out.value("wall_s", s.wall).value("particle_steps_per_s", s.particle_steps_per_s);
   write(out, s.mass);
-  out.begin("gauges");
+  write(out, s.energy);
+  out.array("warnings");
+  for (const auto& warning : s.warnings) out.value("", warning);
+  out.end_array().begin("gauges");
   for (const auto& gauge : s.gauges) write(out, gauge);
   out.end().begin("runup");
   for (const auto& run_up : s.run_ups) out.value(run_up.name, run_up.highest);
@@ -178,6 +196,7 @@ void print_tables(std::FILE* out, const Summary& s) {
   std::fprintf(out, "mass: relative error %.1e", s.mass.relative_error);
   if (std::isfinite(s.mass.flux_error)) std::fprintf(out, ", flux error %.2e", s.mass.flux_error);
   std::fputc('\n', out);
+  for (const auto& warning : s.warnings) std::fprintf(out, "warning: %s\n", warning.c_str());
 }
 
 }  // namespace freshet

@@ -74,6 +74,12 @@ struct MassBalance {
       unknown;  // |inflow - outflow - straddle - flux| / gross flux; unknown without open boundaries
 };
 
+// Per unit density of water; see Mechanics in src/method.hpp.
+struct EnergyBalance {
+  double kinetic_start = unknown, potential_start = unknown, kinetic_end = unknown, potential_end = unknown;  // m5/s2
+  std::pair<double, double> momentum_start{unknown, unknown}, momentum_end{unknown, unknown};                 // m4/s
+};
+
 struct Summary {
   std::string scene_case, method, backend, version;
   int threads = 0;
@@ -82,6 +88,8 @@ struct Summary {
   double simulated = 0, wall = 0;  // s
   double particle_steps_per_s = 0;
   MassBalance mass;
+  EnergyBalance energy;
+  std::vector<std::string> warnings;  // what the run noticed about itself
   std::vector<GaugeResult> gauges;
   std::vector<RunUpResult> run_ups;
   std::vector<ProfileResult> profiles;

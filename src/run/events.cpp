@@ -38,8 +38,8 @@ Events::Events(const Scene& scene)
       snapshots(scene.compare.times),
       end(scene.end_time) {}
 
-Stride Events::shorten(const Clock& clock, double stable_dt) const {
-  const double event = std::min({outputs.next(), comparisons.next(), profiles.next(), snapshots.next(), end});
+Stride Events::shorten(const Clock& clock, double stable_dt, double next) const {
+  const double event = std::min({outputs.next(), comparisons.next(), profiles.next(), snapshots.next(), next, end});
   const double remaining = event - clock.t;
   const double parts = std::max(1.0, std::ceil(remaining / stable_dt));
   const double dt = remaining / parts;

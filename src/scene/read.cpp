@@ -29,6 +29,7 @@ void read_sections(Table& root, Scene& scene) {
   Table water = root.table("water"), bed = root.table("bed"), compare = root.table("compare");
   Table split = root.table("split"), merge = root.table("merge");
   Table time = root.table("time"), output = root.table("output"), limits = root.table("limits");
+  Table raster = root.table("raster");
   read_scene_section(head, scene);
   read_domain(domain, scene);
   const bool acceleration_named = read_sph(sph, scene);
@@ -50,6 +51,7 @@ void read_sections(Table& root, Scene& scene) {
   read_each(root, "runup", scene, read_run_up);
   read_each(root, "profile", scene, read_profile);
   read_output(output, scene);
+  read_rasters(raster, scene);
   read_limits(limits, scene);
 }
 

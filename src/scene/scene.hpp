@@ -38,6 +38,15 @@ struct Bed {
   int nodata = 0;                 // cells without a value in the file
 };
 
+// Manning's n [s/m^(1/3)]: one number, or a map of the ground.
+struct Manning {
+  double n = 0;              // where there is no map
+  Function map;              // by place; a place takes the value of the nearest node of the lattice:
+  Point node{}, step{1, 1};  // m, one of its nodes, and their spacings
+  std::string description;   // of the map: for the read-back
+  Manning(double number = 0) : n(number) {}
+};
+
 struct Water {
   double spacing = 0;                         // m, particle spacing dx
   // relaxed: cells, then pushed by their own pressure until they lie still along slanting and curved walls
@@ -46,6 +55,8 @@ struct Water {
   Function surface;                           // m; absent where the scene gives the depth: depth = surface - bed
   std::array<Function, 2> velocity;           // m/s; absent = at rest
   double wet_above = 0;                       // m
+  double disorder = 0;                        // x dx: each particle starts up to so far off its cell's centre along each axis
+  int seed = 1;                               // of the disorder
 };
 
 struct Wall {
@@ -162,6 +173,16 @@ struct Output {
   double checkpoint_every = 600;  // s of wall clock
 };
 
+// Maps on a grid of square cells that covers the domain.
+struct Rasters {
+  enum class Quantity { depth, surface, u, v, speed };
+  double spacing = 0;           // m, of the cells
+  double every = 0;             // s (0 = first and last state only)
+  std::vector<Quantity> what;
+  bool maxima = false;          // largest depth, speed and their product, arrival and last wetness, looked at in every step
+  double arrival = 0.01;        // m, a cell is reached where the depth exceeds it
+};
+
 struct Limits {
   double mass_error = 1e-6;  // relative
   double speed = 1e4;        // m/s
@@ -174,7 +195,7 @@ struct Scene {
   std::string text;  // the scene as read, overrides applied, data files absolute: written into every result
   std::vector<std::string> notes;  // what the reader decided on its own, one line each
   double gravity = 9.81;             // m/s2
-  std::optional<double> manning;     // s/m^(1/3)
+  std::optional<Manning> manning;
   double cfl = 0.4;
   double end_time = 0;               // s
   Domain domain;
@@ -190,6 +211,7 @@ struct Scene {
   std::optional<Merge> merge;
   Compare compare;
   Output output;
+  std::optional<Rasters> rasters;
   Limits limits;
 };
 

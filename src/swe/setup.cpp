@@ -27,12 +27,25 @@ void set_field(const Field<double>& field, const std::vector<Placed>& particles,
 
 }  // namespace
 
+// On slopes below 1e-3 the variational acceleration differs from the classical one by 1e-6 g: the bed's curvature is not
+// looked up there.
 template <int D>
 void Solver<D>::build_bed() {
+  constexpr double flat = 1e-3;
   if (!scene_.bed.elevation) return;
   const double spacing = scene_.bed.spacing > 0 ? scene_.bed.spacing : scene_.water.spacing;
-  bed_ = Bed<D>{BedSpline<D>(scene_.bed.elevation, {scene_.domain.low, scene_.domain.high, spacing, scene_.bed.filter}),
-                scene_.sph.acceleration == Acceleration::variational, {}};
+  bed_ = Bed<D>{BedSpline<D>(scene_.bed.elevation, {scene_.domain.low, scene_.domain.high, spacing, scene_.bed.filter}), false, {}};
+  bed_->variational = scene_.sph.acceleration == Acceleration::variational && bed_->spline.steepest() >= flat;
+}
+
+template <int D>
+void Solver<D>::build_friction() {
+  if (!scene_.manning) return;
+  const Manning& manning = *scene_.manning;
+  friction_ = Friction{scene_.gravity, manning.n};
+  if (!manning.map) return;
+  const auto squared = [&](double x, double y) { const double n = manning.map(x, y); return n * n; };
+  friction_->roughness2 = NearestTable(squared, {scene_.domain.low, scene_.domain.high, manning.node, manning.step});
 }
 
 // Depth at t = 0 over the bed as the particles feel it: filtered and tabulated.

@@ -26,7 +26,9 @@ class Solver : public Method {
   void step(double t, double dt) override;
   FieldSet& fields() override { return particles_; }
   const FieldSet& fields() const override { return particles_; }
+  const Rows& rows() const override { return order_.rows(); }
   Totals totals() const override;
+  Mechanics mechanics() const override;
   StepReport report() const override { return report_; }
   std::vector<PointState> sample(const std::vector<Point>& points) const override;
   double highest_wet_bed(const Point& at, double radius, double min_depth) const override;
@@ -36,6 +38,7 @@ class Solver : public Method {
 
  private:
   void build_bed();
+  void build_friction();
   void build_walls();
   void build_boundaries();
   void build_refinement();  // src/swe/refine.cpp
