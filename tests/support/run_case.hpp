@@ -1,4 +1,4 @@
-// Runs one of the scenes in cases/ to its end, as the program does, and returns its summary.
+// Runs one of the scenes in cases/ to its end, as the program does, and returns its summary and its water.
 #pragma once
 #include <cstdlib>
 #include <filesystem>
@@ -34,7 +34,7 @@ struct CaseRun {
   }
 };
 
-inline CaseRun run_case_keeping_gauges(const std::string& name, const std::vector<std::string>& overrides = {}) {
+inline CaseRun finish_case(const std::string& name, const std::vector<std::string>& overrides = {}) {
   const Scratch scratch;
   const Scene scene = read_case(name, overrides);
   const auto method = make_method(scene);
@@ -49,7 +49,7 @@ inline CaseRun run_case_keeping_gauges(const std::string& name, const std::vecto
 }
 
 inline Summary run_case(const std::string& name, const std::vector<std::string>& overrides = {}) {
-  return run_case_keeping_gauges(name, overrides).summary;
+  return finish_case(name, overrides).summary;
 }
 
 // Whether the Okushiri benchmark's files are where a scene would find them.

@@ -27,7 +27,7 @@ TEST_CASE("EA test 3: momentum carries water over the crest", "[ea3]") {
   if (!test::data_file("ea_tests/test3/test3DEM.asc")) return;
   const Scene scene = test::read_case("ea3");
   const test::ChannelFlow reference = finite_volumes(scene);
-  const test::CaseRun run = test::run_case_keeping_gauges("ea3");
+  const test::CaseRun run = test::finish_case("ea3");
   const double beyond = run.mass_where([](double x, double) { return x > crest; });
   // 1,310 m3 enter (PROVENANCE); the particles carry 0.2 to 0.3 m3 each across the line.
   CHECK(run.summary.mass.inflow == Approx(1310).epsilon(0.005));

@@ -9,7 +9,7 @@ using namespace freshet;
 TEST_CASE("EA test 4: the front of a breach crosses a plain in time and leaves the right depths", "[ea4][long]") {
   if (!test::data_file("ea_tests/test4/ea4-5m-dg2_subset.csv")) return;
   const Scene scene = test::read_case("ea4");
-  const test::CaseRun run = test::run_case_keeping_gauges("ea4");
+  const test::CaseRun run = test::finish_case("ea4");
   REQUIRE(run.gauges.size() == 6);
   for (std::size_t g = 0; g < run.gauges.size(); ++g) {
     CAPTURE(scene.gauges[g].name);
