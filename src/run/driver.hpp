@@ -38,6 +38,7 @@ class Driver {
 
  private:
   void step();
+  void check();
   void fire_events();
   void write_particles();
   void write_state(const std::string& name);
@@ -46,6 +47,7 @@ class Driver {
   Values run_values() const;
   MassBalance mass_balance() const;
   EnergyBalance energy_balance() const;
+  std::vector<std::string> warnings() const;
   std::vector<GaugeResult> gauge_results() const;
   std::vector<RunUpResult> run_up_results() const;
   ErrorNorms errors() const;
@@ -61,6 +63,7 @@ class Driver {
   RunUpRecorder run_ups_;
   RasterRecorder rasters_;
   Strain strain_;
+  EnergyWatch energy_watch_;
   ParticleFile particles_;
   Progress progress_;
   std::vector<double> l1_samples_;  // depth_l1_rel at the comparison times
