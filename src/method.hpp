@@ -55,7 +55,7 @@ class Method {
   virtual double stable_dt() const = 0;               // s, for the state at hand
   virtual void step(double t, double dt) = 0;         // from t to t + dt
   // Fields of a shallow-water method: x, y [m], u, v [m/s], depth [m], bed [m], mass [m3], h [m], id (int),
-  // kind (int, only with open boundaries: 0 fluid, 1 boundary particle). 1-D has no y, v; a flat bed has no bed field.
+  // kind (int, only with open boundaries: 0 fluid, > 0 boundary particle of that piece of line). 1-D has no y, v; a flat bed has no bed field.
   virtual FieldSet& fields() = 0;
   virtual const FieldSet& fields() const = 0;
   virtual const Rows& rows() const = 0;               // the order that the particles are in, with the reach of their h

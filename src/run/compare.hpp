@@ -8,8 +8,11 @@
 
 namespace freshet {
 
+// All norms below at one time, over the particles (and cells) inside scene.compare.where.
+ErrorNorms error_norms(const Scene& scene, const Fluid& fluid, double t);
+
 // sqrt(sum (d - d_e)^2 / sum d_e^2) over the particles; likewise their largest |d - d_e| [m] and rms |v -
-// v_e| [m/s].
+// v_e| [m/s]. Over those with d_e above scene.compare.threshold: the rms norms of thesis (2.58) and (2.59).
 ErrorNorms particle_errors(const Scene& scene, const Fluid& fluid, double t);
 
 // Mean of |d - d_e| / d_e over the particles with d_e above scene.compare.threshold.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 
 #include "cellgrid/runtime.hpp"
 #include "src/errors.hpp"
@@ -21,6 +22,25 @@ std::string inside(const std::string& directory, const char* name) {
 
 bool finished(const Clock& clock, const Scene& scene) { return clock.t >= scene.end_time; }
 
+// One row for each: the time, then the norms in the order of norm_names.
+std::vector<double> flat(const std::vector<ErrorsAt>& rows) {
+  std::vector<double> numbers;
+  for (const ErrorsAt& row : rows) {
+    numbers.push_back(row.t);
+    for (const NormName& norm : norm_names) numbers.push_back(row.errors.*norm.value);
+  }
+  return numbers;
+}
+
+std::vector<ErrorsAt> errors_from(const std::vector<double>& numbers) {
+  std::vector<ErrorsAt> rows;
+  for (std::size_t k = 0; k < numbers.size(); k += 1 + std::size(norm_names)) {
+    rows.push_back({numbers[k], {}});
+    for (std::size_t n = 0; n < std::size(norm_names); ++n) rows.back().errors.*norm_names[n].value = numbers[k + 1 + n];
+  }
+  return rows;
+}
+
 }  // namespace
 
 Driver::Driver(const Scene& scene, Method& method, RunOptions options)
@@ -31,6 +51,8 @@ Driver::Driver(const Scene& scene, Method& method, RunOptions options)
       monitor_(scene),
       gauges_(scene, inside(options_.directory, "gauges.csv")),
       run_ups_(scene.run_ups),
+      profiles_(scene, inside(options_.directory, "profiles.csv")),
+      steady_(scene),
       rasters_(scene, options_.directory),
       particles_(inside(options_.directory, "particles.h5part")),
       progress_(options_.progress, options_.terminal, 0, scene.end_time) {}
@@ -43,6 +65,7 @@ void Driver::begin() {
   particles_.create(scene_.text, build::version);
   gauges_.begin(method_);
   run_ups_.record(method_);
+  steady_.begin(method_);
   rasters_.begin(method_);
 }
 
@@ -55,6 +78,7 @@ bool Driver::run() {
       check();
       gauges_.record(method_, clock_.t);
       run_ups_.record(method_);
+      steady_.record(method_);
       rasters_.record(method_, clock_.t);
       fire_events();
       if (progress_.due(clock_.t)) show_progress();
@@ -91,6 +115,10 @@ void Driver::check() {
 void Driver::fire_events() {
   for (; events_.comparisons.due(clock_.t); events_.comparisons.advance()) {
     l1_samples_.push_back(depth_l1(scene_, fluid_on_host(method_.fields()), clock_.t));
+  }
+  for (; events_.profiles.due(clock_.t); events_.profiles.advance()) profiles_.record(method_, clock_.t);
+  for (; events_.snapshots.due(clock_.t); events_.snapshots.advance()) {
+    errors_at_.push_back({clock_.t, errors()});
   }
   if (events_.outputs.due(clock_.t)) {
     monitor_.check_all(method_, clock_);
@@ -139,16 +167,21 @@ Values Driver::run_values() const {
   Values values;
   values["clock"] = {clock_.t, static_cast<double>(clock_.step)};
   values["events_done"] = {static_cast<double>(events_.outputs.done()),
-                           static_cast<double>(events_.comparisons.done())};
+                           static_cast<double>(events_.comparisons.done()),
+                           static_cast<double>(events_.snapshots.done())};
   values["initial"] = {monitor_.initial_mass(), static_cast<double>(initial_particles_)};
   const Mechanics& m = initial_mechanics_;
   values["mechanics"] = {m.momentum[0], m.momentum[1], m.kinetic, m.potential};
   values["depth_l1_rel"] = l1_samples_;
+  values["errors_at"] = flat(errors_at_);
+  values["dt"] = {dt_};
   values["effort"] = {wall(), earlier_particle_steps_ + progress_.particle_steps()};
   strain_.save(values);
   energy_watch_.save(values);
   gauges_.save(values);
   run_ups_.save(values);
+  profiles_.save(values);
+  steady_.save(values);
   rasters_.save(values);
   return values;
 }
@@ -158,17 +191,23 @@ void Driver::restore(const Checkpoint& checkpoint) {
   clock_ = {run.at("clock").at(0), std::lround(run.at("clock").at(1))};
   events_.outputs.skip_to(static_cast<std::size_t>(run.at("events_done").at(0)));
   events_.comparisons.skip_to(static_cast<std::size_t>(run.at("events_done").at(1)));
+  events_.snapshots.skip_to(static_cast<std::size_t>(run.at("events_done").at(2)));
   monitor_.start(run.at("initial").at(0));
   initial_particles_ = static_cast<int>(run.at("initial").at(1));
   const std::vector<double>& m = run.at("mechanics");
   initial_mechanics_ = {{m.at(0), m.at(1)}, m.at(2), m.at(3)};
   l1_samples_ = run.at("depth_l1_rel");
+  errors_at_ = errors_from(run.at("errors_at"));
+  dt_ = run.at("dt").at(0);
   earlier_wall_ = run.at("effort").at(0);
   earlier_particle_steps_ = run.at("effort").at(1);
   strain_.restore(run);
   energy_watch_.restore(run);
   gauges_.restore(run);
   run_ups_.restore(run);
+  profiles_.restore(run);
+  while (events_.profiles.due(clock_.t)) events_.profiles.advance();
+  steady_.restore(run);
   rasters_.restore(run);
   if (std::filesystem::exists(inside(options_.directory, "particles.h5part"))) {
     particles_.truncate(static_cast<int>(events_.outputs.done()));
@@ -224,9 +263,7 @@ std::vector<RunUpResult> Driver::run_up_results() const {
 }
 
 ErrorNorms Driver::errors() const {
-  const Fluid fluid = fluid_on_host(method_.fields());
-  ErrorNorms errors = particle_errors(scene_, fluid, clock_.t);
-  errors.depth_l1_rel = median(l1_samples_);
+  ErrorNorms errors = error_norms(scene_, fluid_on_host(method_.fields()), clock_.t);
   errors.grid_l2_rel = grid_l2(scene_, method_, clock_.t);
   return errors;
 }
@@ -250,8 +287,13 @@ Summary Driver::summary() const {
   s.warnings = warnings();
   s.gauges = gauge_results();
   s.run_ups = run_up_results();
+  s.profiles = profiles_.results();
   s.compared = scene_.compare.exact != nullptr;
   if (s.compared) s.errors = errors();
+  if (s.compared) s.errors.depth_l1_rel = median(l1_samples_);
+  s.errors_at = errors_at_;
+  s.watched = steady_.wanted();
+  if (s.watched) s.steady = steady_.result(method_, dt_);
   return s;
 }
 

@@ -9,9 +9,11 @@
 #include "src/io/h5part.hpp"
 #include "src/io/summary.hpp"
 #include "src/run/monitor.hpp"
+#include "src/run/profiles.hpp"
 #include "src/run/progress.hpp"
 #include "src/run/rasters.hpp"
 #include "src/run/stations.hpp"
+#include "src/run/steady.hpp"
 #include "src/run/strain.hpp"
 
 namespace freshet {
@@ -35,6 +37,7 @@ class Driver {
   bool run();
   const Clock& clock() const { return clock_; }
   Summary summary() const;
+  const std::vector<GaugeRow>& gauge_rows() const { return gauges_.rows(); }
 
  private:
   void step();
@@ -61,12 +64,15 @@ class Driver {
   Monitor monitor_;
   GaugeRecorder gauges_;
   RunUpRecorder run_ups_;
+  ProfileRecorder profiles_;
+  SteadyRecorder steady_;
   RasterRecorder rasters_;
   Strain strain_;
   EnergyWatch energy_watch_;
   ParticleFile particles_;
   Progress progress_;
   std::vector<double> l1_samples_;  // depth_l1_rel at the comparison times
+  std::vector<ErrorsAt> errors_at_;
   double dt_ = 0;                   // s, of the last step
   int initial_particles_ = 0;
   Mechanics initial_mechanics_;

@@ -41,7 +41,7 @@ struct Stride {
 };
 
 struct Events {
-  Timetable outputs, comparisons;
+  Timetable outputs, comparisons, profiles, snapshots;  // snapshots: Compare::times
   double end;  // s
   explicit Events(const Scene& scene);
 

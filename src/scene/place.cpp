@@ -129,7 +129,7 @@ Point velocity_at(const Scene& scene, double x, double y) {
 std::vector<Placed> place(const Scene& scene, const Function& depth) {
   auto particles = scene.water.start == Water::Start::equal_mass ? place_equal_mass(scene, depth) : place_cells(scene, depth);
   drop_rounding(particles);
-  if (particles.empty()) throw SceneError("water: no particle is wet; the depth is nowhere above " +
+  if (particles.empty() && scene.boundaries.empty()) throw SceneError("water: no particle is wet; the depth is nowhere above " +
                                           std::to_string(scene.water.wet_above) + " m: check [water] and [bed]");
   return particles;
 }

@@ -67,12 +67,18 @@ struct Wall {
 
 struct OpenBoundary {
   std::string name;
-  // m; the water is on its left. 1-D: (x, 1), (x, 0) at the left end and (x, 0), (x, 1) at the right end.
-  std::array<Point, 2> line{};
-  enum class Kind { elevation, wave } kind = Kind::elevation;
+  // m, two points or more (no sharp bends); the water is on its left. 1-D: (x, 1), (x, 0) at the left end and (x, 0), (x, 1) at
+  // the right end.
+  std::vector<Point> line;
   // elevation: total free-surface level imposed, outgoing invariant kept (thesis 4.2).
   // wave: level of the incoming wave alone; outgoing waves leave.
-  Series level;  // m
+  // velocity: inward normal velocity. discharge: total inward discharge of the line. state: level or depth and inward velocity.
+  // transmissive: what arrives leaves, against still water at `level` where it is given, else by zero gradient.
+  enum class Kind { elevation, wave, velocity, discharge, state, transmissive } kind = Kind::elevation;
+  Series level{}, depth{};        // m; no entries where not imposed
+  Series velocity{}, discharge{};  // m/s, m3/s (1-D: m2/s), inwards
+  bool by_width = false;         // discharge: distributed equally along the line, else by conveyance
+  double spacing = 0;            // m, of the boundary particles; 0 = as the water
 };
 
 struct Gauge {
@@ -89,6 +95,17 @@ struct RunUp {
   double radius = 0.05;      // m
   double min_depth = 0.002;  // m
   std::optional<std::array<double, 2>> measured;  // m, lowest and highest
+};
+
+// The surface along a line at one time.
+struct Transect {
+  std::string name;
+  std::array<Point, 2> line{};     // m, from and to
+  bool one_dimensional = false;
+  double time = 0;                 // s
+  double spacing = 0;              // m, of the points that are written
+  std::optional<Series> measured;  // free-surface elevation [m] over the place on the line [m]: 1-D x, 2-D distance from line[0]
+  Point at(double place) const;    // the point of the line there
 };
 
 enum class Stabilisation { none, artificial_viscosity, lax_friedrichs, lax_friedrichs_muscl, two_shock, two_shock_muscl };
@@ -112,12 +129,41 @@ struct Sph {
   bool well_balanced = false;  // still water over any bed stays at rest to round-off (kernels/swe/well_balanced.hpp)
 };
 
+// A limit on the area that a particle covers, in spacing^D; it may differ by region.
+struct AreaLimit {
+  struct Region {
+    std::vector<Point> corners;  // m, of a polygon; 1-D: both ends
+    double area;
+  };
+  std::optional<double> elsewhere;  // absent = no limit there
+  std::vector<Region> regions;      // the first that holds a place counts
+};
+
+struct Split {
+  AreaLimit area;          // a particle that covers this or more is split
+  int into = 7;            // daughters: 7 in 2-D, 2 or 3 in 1-D
+  double alpha, eps;       // a daughter's h and the pattern's radius, x the parent's h
+  double relax = 3;        // h / c: time in which a daughter's h goes to eta (m / depth)^(1/D)
+  bool linear = false;     // daughters follow the velocity gradient; else they have the parent's velocity
+  double least_depth = 0;  // m
+  int most_particles = 20000000;
+};
+
+struct Merge {
+  AreaLimit area;     // particles that both cover less merge
+  double reach = 1;   // x h: how far apart at most
+  double relax = 3;   // h / c
+};
+
 struct Compare {
   std::shared_ptr<const Exact> exact;
   double threshold = 1e-3;             // m, depth_l1_rel counts where the exact depth is above it
   std::optional<double> grid_spacing;  // m, of the regular grid of grid_l2_rel (default: 1/200 of the domain)
   int samples = 1;                     // depth_l1_rel is the median over this many times ...
   double window = 0;                   // s, ... evenly spread over the last `window` seconds before the end
+  std::vector<double> times;           // s, increasing: all errors are also taken at these
+  Function where;                      // errors count where it is not 0; absent = everywhere
+  bool steady = false;                 // the exact flow does not change: largest speed and rate of change are recorded
   std::string description;             // "stoker: 10 m | 5 m, dam at 1000 m": for the read-back
 };
 
@@ -159,7 +205,10 @@ struct Scene {
   std::vector<OpenBoundary> boundaries;
   std::vector<Gauge> gauges;
   std::vector<RunUp> run_ups;
+  std::vector<Transect> profiles;
   Sph sph;
+  std::optional<Split> split;
+  std::optional<Merge> merge;
   Compare compare;
   Output output;
   std::optional<Rasters> rasters;

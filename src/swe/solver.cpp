@@ -1,5 +1,7 @@
 #include "src/swe/solver.hpp"
 
+#include <algorithm>
+
 #include "kernels/swe/depth_gradient.hpp"
 #include "kernels/swe/lattice.hpp"
 #include "kernels/swe/well_balanced.hpp"
@@ -39,8 +41,9 @@ Solver<D>::Solver(const Scene& scene)
   build_friction();
   build_boundaries();
   build_walls();
+  build_refinement();
   place_particles();
-  for (auto& boundary : boundaries_) boundary.fill(particles_, [this] { return bind(); }, bed(), next_id_);
+  fill_boundaries();
   find_neighbours();
   if (scene_.sph.well_balanced)
     calibrate_density<D>(kernel_, clusters_, neighbours_.view(), wall_view(), bind(), particles_.real("calibration"));
@@ -56,7 +59,9 @@ void Solver<D>::step(double t, double dt) {
   kick_and_drift<D>(bind(), motion(), particles_.size(), dt);
   if (walls_) walls_->reflect(clusters_, bind().x, bind().v, bind().v_pred);
   for (auto& boundary : boundaries_) boundary.exchange(particles_, [this] { return bind(); }, bed(), t + dt, dt, next_id_);
+  if (refinement_) refine();
   find_neighbours();
+  if (refinement_) refinement_->relax(clusters_, neighbours_.view(), bind(), kind(), dt);
   evaluate(0.5 * dt, 0.5);
   for (auto& boundary : boundaries_) boundary.observe(order_.rows(), bind(), kind(), bed());
 }
@@ -111,7 +116,9 @@ void Solver<D>::close_density(double ahead) {
 
 template <int D>
 double Solver<D>::stable_dt() const {
-  return scene_.cfl * crossing_time_;
+  double crossing = crossing_time_;
+  for (const auto& boundary : boundaries_) crossing = std::min(crossing, boundary.crossing_time());
+  return scene_.cfl * crossing;
 }
 
 template <int D>

@@ -154,6 +154,21 @@ TEST_CASE("a wet dam break resumes to the bit") {
   check_pieces(scene, make_method, GENERATE(5, 23));
 }
 
+TEST_CASE("a dam break that splits and merges resumes to the bit") {
+  const Scene scene = read_scene("cases/dam_break_dry_strip.toml",
+                                 {"water.spacing=20", "time.end=24", "split.area=1.5", "split.velocity=linear",
+                                  "merge.area=0.35", "output.every=5"});
+  const auto method = make_method(scene);
+  for (double t = 0; t < 24;) {
+    const double dt = method->stable_dt();
+    method->step(t, dt);
+    t += dt;
+  }
+  REQUIRE(method->scalars().at("refinement")[0] > 50);
+  REQUIRE(method->scalars().at("refinement")[1] > 10);
+  check_pieces(scene, make_method, GENERATE(5, 13));
+}
+
 TEST_CASE("rasters and their maxima resume to the bit") {
   Scene scene;
   scene.name = "drop";

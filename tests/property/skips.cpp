@@ -176,6 +176,26 @@ TEST_CASE("skips: launches come with the features that need them") {
   }
 }
 
+TEST_CASE("skips: splitting and merging need no field, and where nothing is to do few launches and no memory") {
+  Scene scene = drop();
+  const Names bare = field_names(scene);
+  scene.split = Split{};
+  scene.split->alpha = 0.92, scene.split->eps = 0.36;
+  scene.split->area.elsewhere = 1e3;
+  CHECK(field_names(scene) == bare);
+  CHECK(extra_labels(scene) == Names{"split::choose", "refine::relax"});
+  scene.split.reset();
+  scene.merge = Merge{};
+  scene.merge->area.elsewhere = 1e-3;
+  CHECK(field_names(scene) == bare);
+  CHECK(extra_labels(scene) == Names{"merge::eligible", "merge::choose", "merge::join", "refine::relax"});
+  Flow flow(scene);
+  flow.many_steps(3);
+  const Recording recording;
+  flow.many_steps(3);
+  CHECK(recording.allocations == std::vector<std::string>{});
+}
+
 TEST_CASE("skips: one number for Manning's n makes no table, a map makes one and adds no launch") {
   Scene scene = drop();
   scene.manning = 0.03;
