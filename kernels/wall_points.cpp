@@ -9,7 +9,7 @@ namespace {
 constexpr double small_turn = 0.5;  // rad: below it two pieces are one curve, not a corner
 
 WallSegment segment_between(const std::array<double, 2>& a, const std::array<double, 2>& b) {
-  WallSegment s{{a[0], a[1]}, {b[0], b[1]}, {}, {}, std::hypot(b[0] - a[0], b[1] - a[1]), 0, 0, -1};
+  WallSegment s{{a[0], a[1]}, {b[0], b[1]}, {}, {}, std::hypot(b[0] - a[0], b[1] - a[1]), 0, 0, 0, 0, -1};
   for (int k = 0; k < 2; ++k) s.tangent[k] = (s.b[k] - s.a[k]) / s.length;
   s.normal[0] = -s.tangent[1];
   s.normal[1] = s.tangent[0];
@@ -61,30 +61,40 @@ struct Chain {
 
 // Corners of less than 180 degrees: images of one wall are seen beyond the corner, and in both walls together.
 void join_corner(std::vector<WallSegment>& all, int k, int next, double step) {
-  if (turn_between(all[k], all[next]) <= 1e-9) return;
-  all[k].after = all[next].before = 4 * step;
+  if (turn_between(all[k], all[next]) <= small_turn) return;
+  all[k].after = all[k].see_b = all[next].before = all[next].see_a = 4 * step;
   all[k].next = next;
 }
 
-// Wall points half a spacing apart, with the corner points; `extra`: at corners of less than 180 degrees each wall goes on
-// by half a spacing more.
+double face_step(const WallSegment& s, double spacing) {
+  return s.length / std::max(1, static_cast<int>(std::lround(2 * s.length / spacing)));
+}
+
+// Wall points about half a spacing apart, with the corner points; each is worth as much as a whole half spacing but where the
+// polyline's own pieces are much shorter.
+// `extra`: at corners of less than 180 degrees each wall goes on by half a spacing more.
 void lay_face(std::vector<WallSegment>& all, const Chain& chain, double spacing, bool extra, std::vector<WallPoint>& points) {
+  const auto add = [&](WallPoint point, double length) {
+    if (length < 0.4 * spacing) point.share = length / (0.5 * spacing);
+    points.push_back(point);
+  };
   for (int k = chain.first; k < chain.first + chain.count; ++k) {
     const WallSegment& s = all[k];
-    const int next = chain.behind(k), steps = 2 * std::max(1, static_cast<int>(std::lround(s.length / spacing)));
-    const double step = s.length / steps;  // in step with a lattice
-    for (int i = 1; i < steps; ++i) points.push_back(face_point(s, i * step, 0, k));
+    const int next = chain.behind(k);
+    const double step = face_step(s, spacing);
+    for (double along = step; along < s.length - 0.5 * step; along += step) add(face_point(s, along, 0, k), step);
     if (next >= 0) {
-      points.push_back(corner_point(s.b, s, all[next], k));
+      const double beyond = face_step(all[next], spacing);
+      add(corner_point(s.b, s, all[next], k), 0.5 * (step + beyond));
       join_corner(all, k, next, step);
-      if (extra && turn_between(s, all[next]) > 1e-9) {
-        points.push_back(face_point(s, s.length + step, 0, k));
-        points.push_back(face_point(all[next], -step, 0, next));
+      if (extra && turn_between(s, all[next]) > small_turn) {
+        add(face_point(s, s.length + step, 0, k), step);
+        add(face_point(all[next], -beyond, 0, next), beyond);
       }
     } else {
-      points.push_back(face_point(s, s.length, 0, k));
+      add(face_point(s, s.length, 0, k), step);
     }
-    if (chain.ahead(k) < 0) points.push_back(face_point(s, 0, 0, k));
+    if (chain.ahead(k) < 0) add(face_point(s, 0, 0, k), step);
   }
 }
 
@@ -135,7 +145,7 @@ WallGeometry lay_ends(const std::vector<WallLine>& lines, const WallOptions& o, 
         g.points.push_back({{x - side * depth, 0}, {1, 0, 0}, o.spacing, segment});
     else
       g.points.push_back({{x, 0}, {1, 0, 0}, 1, segment});
-    g.segments.push_back({{x, 0}, {x, 0}, {0, 0}, {side, 0}, 0, 0, 0, -1});
+    g.segments.push_back({{x, 0}, {x, 0}, {0, 0}, {side, 0}, 0, 0, 0, 0, 0, -1});
   }
   return g;
 }
@@ -147,6 +157,8 @@ WallGeometry lay_lines(const std::vector<WallLine>& lines, const WallOptions& o)
     const bool closed = line.size() > 2 && std::hypot(line.front()[0] - line.back()[0], line.front()[1] - line.back()[1]) < 1e-6 * o.spacing;
     chains.push_back({static_cast<int>(g.segments.size()), static_cast<int>(line.size()) - 1, closed});
     for (size_t k = 0; k + 1 < line.size(); ++k) g.segments.push_back(segment_between(line[k], line[k + 1]));
+    if (closed || line.size() < 2) continue;
+    g.segments[static_cast<size_t>(chains.back().first)].see_a = g.segments.back().see_b = free_end;
   }
   for (const Chain& chain : chains) {
     if (o.kind != WallKind::rows) lay_face(g.segments, chain, o.spacing, o.kind != WallKind::vbp, g.points);

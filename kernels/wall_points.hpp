@@ -16,13 +16,15 @@ struct WallSegment {
   double normal[2];      // unit, towards the water
   double length;         // m
   double before, after;  // m, how far beyond a and b its images still count: behind corners of less than 180 degrees
+  double see_a, see_b;   // m, how far beyond a and b they are seen: free_end where the wall ends and an opening begins
   int next;              // the segment behind the corner of less than 180 degrees at b; -1 if there is none
 };
+constexpr double free_end = 1e300;  // m
 
 struct WallPoint {
   double x[2];   // m
   double p[3];   // projector onto the directions that the wall reflects: xx, xy, yy
-  double share;  // 1; rows: the area that the point stands for [m2] (1-D: m)
+  double share;  // the wall that it stands for, in half spacings (about 1); rows: the area [m2] (1-D: m)
   int segment;
 };
 

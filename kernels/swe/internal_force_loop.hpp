@@ -58,20 +58,22 @@ struct InternalForce {
 
   // The force of the neighbours' images: what i's image feels from the neighbours, mirrored back.
   KOKKOS_INLINE_FUNCTION void add_images(int c, const Here<D>& i, ForceSums<D>& sum) const {
-    walls.for_each_image(c, i.x, [&](const Image<D>& image, Lane weight) {
+    walls.for_each_image(c, i.x, [&](const Image<D>& image, Lane weight, const WallSegment& segment) {
       Here<D> other = i;
       other.x = image(i.x);
       other.v = image.turn(i.v);
       if constexpr (Stabilise::velocity_gradient) other.strain = image.turn(i.strain);
       if constexpr (Stabilise::depth_gradient) other.depth_slope = image.turn(i.depth_slope);
       ForceSums<D> felt;
-      near.for_each(c, [&](int j) { add_pair(other, j, felt); });
+      near.for_each(c, [&](int j) {
+        if (walls.mirrors(segment, at(p.x, j))) add_pair(other, j, felt);
+      });
       sum.t += weight * image.turn_back(felt.t);
       sum.signal = larger(sum.signal, weight * felt.signal);
     });
   }
 
-  // Virtual particles: i's own state and slopes, the velocity mirrored; a real pair would feel both ends, so twice.
+  // Virtual particles: i's own state and slopes, the velocity mirrored.
   KOKKOS_INLINE_FUNCTION void add_wall_point(const Here<D>& i, int k, Lane mass, ForceSums<D>& sum) const {
     const Vec<Lane, D> to_wall = i.x - broadcast(at(walls.x, k)), normal_velocity = broadcast(walls.projector, k) * i.v;
     const Lane r2 = dot(to_wall, to_wall) + tiny_square, inv_r = rsqrt(r2);
@@ -81,7 +83,7 @@ struct InternalForce {
       const Lane dw = kernel.slope(s * r2 * inv_r * i.inv_h);
       const PairState<Lane> pair{s * closing, s * s * slope, s * s * slope, 2.0 * i.celerity, inv_r * (1.0 / s) / (2.0 * i.rho),
                                  s * s * r2,  2.0 * i.h,     i.rho,         i.rho,            0.0, 0.0, i.pressure, i.pressure};
-      sum.t += (2.0 * stabilise(pair).i * mass * i.weight_per_mass * dw * inv_r) * to_wall;
+      sum.t += (walls.pushes(s) * stabilise(pair).i * mass * i.weight_per_mass * dw * inv_r) * to_wall;
       const Lane inside = select(dw < Lane(0.0), Lane(1.0), Lane(0.0));
       sum.signal = larger(sum.signal, inside * larger(closing, -closing) * inv_r);
     }

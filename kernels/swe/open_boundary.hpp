@@ -1,27 +1,10 @@
-// Open boundary on a straight line (Vacondio 2010, ch. 4; corrected: SWE-FORMULAS section 9). Outside the line a buffer of
-// boundary particles (kind 1) carries the exterior state of each row (strip along the line, one spacing wide): depth from the
-// imposed level, velocity from the invariant that leaves the domain. They become fluid as they cross the line, fluid that
-// crosses outwards becomes boundary particles, and the buffer is refilled and trimmed at its outer edge.
+// Open boundary: one or more straight pieces that share what is imposed (a total discharge, say), and the account of the water
+// that passed. Each step: inner states are observed, the law of the kind gives the exterior states, the buffers apply them.
 #pragma once
-#include <array>
-#include <functional>
-#include <optional>
-#include <vector>
-
-#include "cellgrid/sums.hpp"
-#include "kernels/swe/motion.hpp"
+#include "kernels/swe/open_buffer.hpp"
+#include "kernels/swe/open_states.hpp"
 
 namespace freshet::swe {
-
-enum class OpenKind { elevation, wave };
-
-template <int D>
-struct OpenLine {
-  Vec<double, D> origin;   // m, a
-  Vec<double, D> inward;   // unit normal towards the water
-  Vec<double, D> tangent;  // unit, a -> b (1-D: zero)
-  double length;           // m (1-D: 1)
-};
 
 struct OpenFlow {
   double inflow = 0, outflow = 0;    // m3 counted as particles cross the line
@@ -32,58 +15,46 @@ struct OpenFlow {
 template <int D>
 class OpenBoundary {
  public:
-  static constexpr int fluid = 0, boundary = 1;  // values of the field kind
+  using Ground = std::optional<Bed<D>>;
 
-  OpenBoundary(const OpenLine<D>& line, OpenKind kind, std::function<double(double)> level, double spacing, double eta,
-               double gravity);
+  // law(t): what is imposed at time t [s]; it is linear between the times given. first_owner: the first of the numbers > 0 for
+  // the field kind, one per piece.
+  OpenBoundary(const std::vector<OpenLine<D>>& pieces, std::function<OpenLaw(double)> law, const std::vector<double>& times,
+               const OpenBufferOptions& options, double gravity, int first_owner);
 
-  // Boundary particles that fill the buffer at level(t = 0), at rest.
-  void fill(FieldSet& particles, const std::function<Particles<D>()>& bind, const std::optional<Bed<D>>& bed, int& next_id);
+  // Fills the buffers with the exterior state that belongs to the water as it was placed. Needs the order of the particles.
+  void fill(const Rows& rows, FieldSet& particles, const Bind<D>& bind, const Ground& bed, int& next_id);
 
-  // Shepard means of level and inward velocity at each row's point on the line, over the fluid within 2h; a row that no
-  // fluid reaches keeps its last state.
-  void observe(const Rows& rows, const Particles<D>& p, const Field<int>& kind, const std::optional<Bed<D>>& bed);
+  // Takes the present level as that at rest and the present straddling volume as the start of the account.
+  void start(const Particles<D>& p, const Field<int>& kind, int n);
+
+  void observe(const Rows& rows, const Particles<D>& p, const Field<int>& kind, const Ground& bed);
 
   // After the drift to time t: exterior states, conversions, removals, insertions. Calls bind() again after growth.
-  void exchange(FieldSet& particles, const std::function<Particles<D>()>& bind, const std::optional<Bed<D>>& bed, double t,
-                double dt, int& next_id);
+  void exchange(FieldSet& particles, const Bind<D>& bind, const Ground& bed, double t, double dt, int& next_id);
+
+  // Least time [s] in which what enters dry land crosses h: until it has entered, no particle tells the time step of it.
+  double crossing_time() const { return crossing_time_; }
 
   const OpenFlow& flow() const { return flow_; }
-  // Volume of the footprints' parts across the line: boundary particles' inside minus fluid's outside [m3].
-  double straddling(const Particles<D>& p, const Field<int>& kind, int n) const;
-
-  // Takes the present straddling volume as the start of the account.
-  void start(const Particles<D>& p, const Field<int>& kind, int n) { flow_.straddle0 = straddling(p, kind, n); }
+  double straddling(const Particles<D>& p, const Field<int>& kind, int n) const;  // m3
+  int pieces() const { return static_cast<int>(buffers_.size()); }
 
   std::vector<double> save() const;
   void restore(const std::vector<double>& state);
 
  private:
-  struct Row {
-    double level = 0, speed = 0;        // inner state: level [m], inward velocity [m/s]
-    double still = 0;                   // m, level of the water at rest
-    double depth = 0, inward = 0;       // exterior state
-    double through = 0;                 // m2/s, inward flow per width: across the line
-    int observed = 0;
-  };
+  void account(const std::vector<OpenRow>& rows, double width, double dt);
+  void impose(double t, double dt);
+  void foresee();
+  void take_still();
 
- public:  // device lambdas may not live in private members
-  void set_exterior(double t, const std::optional<Bed<D>>& bed);
-  void convert(FieldSet& particles, const Particles<D>& p, const std::optional<Bed<D>>& bed);
-  void insert(FieldSet& particles, const std::function<Particles<D>()>& bind, const std::optional<Bed<D>>& bed, int& next_id);
-
- private:
-  OpenLine<D> line_;
-  OpenKind kind_;
-  std::function<double(double)> level_;
-  double spacing_, eta_, gravity_, width_, buffer_;
-  double summed_;  // what the density summation makes of a depth of 1 on a lattice
-  int rows_;
-  Kokkos::View<Row*, Memory> row_;
-  Field<double> farthest_;  // m, outermost boundary particle of each row
-  Field<int> room_;         // boundary particles to insert before each row
+  std::vector<OpenBuffer<D>> buffers_;
+  std::function<OpenLaw(double)> law_;
+  std::vector<double> times_;
+  double gravity_;
+  double crossing_time_ = 1e300;
   OpenFlow flow_;
-  mutable OrderedSums sums_;
 };
 
 }  // namespace freshet::swe

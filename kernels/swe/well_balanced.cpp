@@ -13,11 +13,13 @@ struct BalancedBed {
   Field<double> level;
   double half_gravity;
 
-  // sum over the neighbours as seen from x: the particle's own place, or its image's.
-  KOKKOS_INLINE_FUNCTION Vec<Lane, D> sum(int c, const Vec<Lane, D>& x, Lane b, Lane inv_h) const {
+  // sum over the neighbours that counts(j) as seen from x: the particle's own place, or its image's.
+  template <class Counts>
+  KOKKOS_INLINE_FUNCTION Vec<Lane, D> sum(int c, const Vec<Lane, D>& x, Lane b, Lane inv_h, const Counts& counts) const {
     const Lane per_slope = power<D>(inv_h) * inv_h;
     Vec<Lane, D> t;
     near.for_each(c, [&](int j) {
+      if (!counts(j)) return;
       const Vec<Lane, D> x_ij = x - broadcast(at(p.x, j));
       const Lane r2 = dot(x_ij, x_ij) + tiny_square, inv_r = rsqrt(r2), r = r2 * inv_r;
       const Lane slopes = p.m(j) * per_slope * kernel.slope(r * inv_h) + p.weight(j) * kernel.slope(r * Lane(p.inv_h(j)));
@@ -30,10 +32,10 @@ struct BalancedBed {
     const Lanes me = clusters(c);
     const Vec<Lane, D> x = me.load(p.x);
     const Lane b = me.load(level), inv_h = me.load(p.inv_h);
-    Vec<Lane, D> t = me.load(p.t) + sum(c, x, b, inv_h);
+    Vec<Lane, D> t = me.load(p.t) + sum(c, x, b, inv_h, [](int) { return true; });
     if (walls.on && walls.mirror)
-      walls.for_each_image(c, x, [&](const Image<D>& image, Lane weight) {
-        t += weight * image.turn_back(sum(c, image(x), b, inv_h));
+      walls.for_each_image(c, x, [&](const Image<D>& image, Lane weight, const WallSegment& segment) {
+        t += weight * image.turn_back(sum(c, image(x), b, inv_h, [&](int j) { return walls.mirrors(segment, at(p.x, j)); }));
       });
     me.store(p.t, t);
   }

@@ -1,4 +1,4 @@
-// The fluid particles on the host, for files and comparisons: boundary particles (kind 1) are left out.
+// The fluid particles on the host, for files and comparisons: boundary particles (kind > 0) are left out.
 #pragma once
 #include <vector>
 

@@ -18,6 +18,21 @@ void write(JsonWriter& out, const MassBalance& mass) {
       .end();
 }
 
+void write(JsonWriter& out, const EnergyBalance& energy) {
+  out.begin("energy")
+      .value("kinetic_start_m5_s2", energy.kinetic_start)
+      .value("potential_start_m5_s2", energy.potential_start)
+      .value("kinetic_end_m5_s2", energy.kinetic_end)
+      .value("potential_end_m5_s2", energy.potential_end)
+      .end();
+  out.begin("momentum")
+      .value("x_start_m4_s", energy.momentum_start.first)
+      .value("y_start_m4_s", energy.momentum_start.second)
+      .value("x_end_m4_s", energy.momentum_end.first)
+      .value("y_end_m4_s", energy.momentum_end.second)
+      .end();
+}
+
 void write(JsonWriter& out, const GaugeResult& gauge) {
   out.begin(gauge.name)
       .value("rmse", gauge.rmse)
@@ -32,6 +47,16 @@ void write(JsonWriter& out, const GaugeResult& gauge) {
       .value("arrival", gauge.arrival)
       .value("measured_arrival", gauge.measured_arrival)
       .value("dry_fraction", gauge.dry)
+      .end();
+}
+
+void write(JsonWriter& out, const ProfileResult& profile) {
+  out.begin(profile.name)
+      .value("time", profile.time)
+      .value("rmse", profile.rmse)
+      .value("max_abs_error", profile.max_abs_error)
+      .value("measured_range", profile.measured_range)
+      .value("points", profile.points)
       .end();
 }
 
@@ -92,6 +117,14 @@ void print_run_ups(std::FILE* out, const std::vector<RunUpResult>& run_ups) {
   }
 }
 
+void print_profiles(std::FILE* out, const std::vector<ProfileResult>& profiles) {
+  std::fprintf(out, "\n%-12s %8s %8s %8s %12s %7s\n", "profile", "at [s]", "rmse", "max", "range [mm]", "points");
+  for (const auto& p : profiles)
+    std::fprintf(out, "%-12s %8s %8s %8s %12s %7d\n", p.name.c_str(), cell(p.time, 1, "%.2f").c_str(),
+                 cell(p.rmse, 1e-3, "%.2f").c_str(), cell(p.max_abs_error, 1e-3, "%.2f").c_str(),
+                 cell(p.measured_range, 1e-3, "%.2f").c_str(), p.points);
+}
+
 void print_errors(std::FILE* out, const ErrorNorms& e) {
   std::fprintf(
       out,
@@ -126,11 +159,19 @@ std::string json(const Summary& s) {
   out.value("steps", s.steps).value("list_rebuilds", s.list_rebuilds).value("simulated_s", s.simulated);
   out.value("wall_s", s.wall).value("particle_steps_per_s", s.particle_steps_per_s);
   write(out, s.mass);
-  out.begin("gauges");
+  write(out, s.energy);
+  out.array("warnings");
+  for (const auto& warning : s.warnings) out.value("", warning);
+  out.end_array().begin("gauges");
   for (const auto& gauge : s.gauges) write(out, gauge);
   out.end().begin("runup");
   for (const auto& run_up : s.run_ups) out.value(run_up.name, run_up.highest);
   out.end();
+  if (!s.profiles.empty()) {
+    out.begin("profiles");
+    for (const auto& profile : s.profiles) write(out, profile);
+    out.end();
+  }
   if (s.compared) {
     write(out.begin("errors"), s.errors);
     out.end();
@@ -143,6 +184,7 @@ std::string json(const Summary& s) {
 void print_tables(std::FILE* out, const Summary& s) {
   if (!s.gauges.empty()) print_gauges(out, s.gauges);
   if (!s.run_ups.empty()) print_run_ups(out, s.run_ups);
+  if (!s.profiles.empty()) print_profiles(out, s.profiles);
   if (s.compared) print_errors(out, s.errors);
   if (!s.errors_at.empty()) print_errors_at(out, s.errors_at);
   if (s.watched) print_steadiness(out, s.steady);
@@ -154,6 +196,7 @@ void print_tables(std::FILE* out, const Summary& s) {
   std::fprintf(out, "mass: relative error %.1e", s.mass.relative_error);
   if (std::isfinite(s.mass.flux_error)) std::fprintf(out, ", flux error %.2e", s.mass.flux_error);
   std::fputc('\n', out);
+  for (const auto& warning : s.warnings) std::fprintf(out, "warning: %s\n", warning.c_str());
 }
 
 }  // namespace freshet

@@ -27,6 +27,14 @@ struct RunUpResult {
   std::pair<double, double> measured{unknown, unknown};  // m, lowest and highest
 };
 
+struct ProfileResult {
+  std::string name;
+  double time = unknown;                               // s
+  double rmse = unknown, max_abs_error = unknown;      // m, over the measured points on the line
+  double measured_range = unknown;                     // m, highest less lowest of them
+  int points = 0;
+};
+
 struct ErrorNorms {
   double depth_l1_rel = unknown, depth_l2_rel = unknown, grid_l2_rel = unknown;
   double depth_linf = unknown;         // m
@@ -66,6 +74,12 @@ struct MassBalance {
       unknown;  // |inflow - outflow - straddle - flux| / gross flux; unknown without open boundaries
 };
 
+// Per unit density of water; see Mechanics in src/method.hpp.
+struct EnergyBalance {
+  double kinetic_start = unknown, potential_start = unknown, kinetic_end = unknown, potential_end = unknown;  // m5/s2
+  std::pair<double, double> momentum_start{unknown, unknown}, momentum_end{unknown, unknown};                 // m4/s
+};
+
 struct Summary {
   std::string scene_case, method, backend, version;
   int threads = 0;
@@ -74,8 +88,11 @@ struct Summary {
   double simulated = 0, wall = 0;  // s
   double particle_steps_per_s = 0;
   MassBalance mass;
+  EnergyBalance energy;
+  std::vector<std::string> warnings;  // what the run noticed about itself
   std::vector<GaugeResult> gauges;
   std::vector<RunUpResult> run_ups;
+  std::vector<ProfileResult> profiles;
   bool compared = false;  // the scene names an exact solution
   ErrorNorms errors;
   std::vector<ErrorsAt> errors_at;  // at the times that [compare] names

@@ -18,7 +18,9 @@ constexpr double buffer_in_dx = 6;  // depth of an open boundary's buffer outsid
 
 Allowed allowed_in(const Scene& scene) {
   const double dx = scene.water.spacing;
-  const double margin = margin_in_h * scene.sph.eta * dx + (scene.boundaries.empty() ? 0 : buffer_in_dx * dx);
+  double buffer = 0;
+  for (const OpenBoundary& b : scene.boundaries) buffer = std::max(buffer, buffer_in_dx * std::max(dx, b.spacing));
+  const double margin = margin_in_h * scene.sph.eta * dx + buffer;
   const Point low = scene.domain.low, high = scene.domain.high;
   const bool flat = scene.domain.dimension == 1;
   return {low[0] - margin,

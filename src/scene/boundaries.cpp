@@ -1,6 +1,7 @@
 // [[boundary]]: lines with the water on their left.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "src/scene/sections.hpp"
 #include "src/scene/series.hpp"
@@ -11,22 +12,21 @@ namespace {
 
 enum class SideName { left, right, bottom, top };
 
-std::array<Point, 2> side_line(const Domain& domain, SideName side) {
+std::vector<Point> side_line(const Domain& domain, SideName side) {
   const Point a = domain.low, b = domain.high;
   if (domain.dimension == 1) {
     const double x = side == SideName::left ? a[0] : b[0];
-    return side == SideName::left ? std::array<Point, 2>{{{x, 1}, {x, 0}}}
-                                  : std::array<Point, 2>{{{x, 0}, {x, 1}}};
+    return side == SideName::left ? std::vector<Point>{{x, 1}, {x, 0}} : std::vector<Point>{{x, 0}, {x, 1}};
   }
   switch (side) {
-    case SideName::bottom: return {{{a[0], a[1]}, {b[0], a[1]}}};
-    case SideName::right: return {{{b[0], a[1]}, {b[0], b[1]}}};
-    case SideName::top: return {{{b[0], b[1]}, {a[0], b[1]}}};
-    default: return {{{a[0], b[1]}, {a[0], a[1]}}};
+    case SideName::bottom: return {{a[0], a[1]}, {b[0], a[1]}};
+    case SideName::right: return {{b[0], a[1]}, {b[0], b[1]}};
+    case SideName::top: return {{b[0], b[1]}, {a[0], b[1]}};
+    default: return {{a[0], b[1]}, {a[0], a[1]}};
   }
 }
 
-std::array<Point, 2> read_side(Table& section, const Domain& domain) {
+std::vector<Point> read_side(Table& section, const Domain& domain) {
   std::vector<std::pair<std::string, SideName>> sides = {{"left", SideName::left},
                                                          {"right", SideName::right}};
   if (domain.dimension == 2) {
@@ -36,61 +36,155 @@ std::array<Point, 2> read_side(Table& section, const Domain& domain) {
   return side_line(domain, section.choice<SideName>("side", sides).otherwise(SideName::left));
 }
 
-std::array<Point, 2> read_line(Table& section, const Scene& scene) {
+// The largest bend between two pieces of a line [degrees]: the buffers behind them meet at a mitre.
+constexpr double most_bend = 120;
+
+bool bends_too_much(const std::vector<Point>& line) {
+  for (std::size_t k = 1; k + 1 < line.size(); ++k) {
+    const double ax = line[k][0] - line[k - 1][0], ay = line[k][1] - line[k - 1][1];
+    const double bx = line[k + 1][0] - line[k][0], by = line[k + 1][1] - line[k][1];
+    if (std::abs(std::atan2(ax * by - ay * bx, ax * bx + ay * by)) > most_bend * std::acos(-1.0) / 180) return true;
+  }
+  return false;
+}
+
+std::vector<Point> read_line(Table& section, const Scene& scene) {
   const std::vector<Point> line = section.points("line").otherwise({});
   if (line.empty()) return {};
   if (scene.domain.dimension == 1) {
     section.error("line", "a 1-D scene has no lines", "write side = \"left\" or side = \"right\"");
-  } else if (line.size() != 2 || line[0] == line[1]) {
-    section.error("line", "'" + section.path_of("line") + "' must have two different points");
-  } else if (require_inside(section, "line", "the boundary", line[0], scene) &&
-             require_inside(section, "line", "the boundary", line[1], scene)) {
-    return {line[0], line[1]};
+    return {};
   }
-  return {};
+  if (line.size() < 2 || std::adjacent_find(line.begin(), line.end()) != line.end()) {
+    section.error("line", "'" + section.path_of("line") + "' must have two or more points, each different from the one before");
+    return {};
+  }
+  if (bends_too_much(line)) {
+    section.error("line", "'" + section.path_of("line") + "' bends by more than " + shown(most_bend) + " degrees",
+                  "make two boundaries of it, with a wall between them");
+    return {};
+  }
+  for (const Point& point : line)
+    if (!require_inside(section, "line", "the boundary", point, scene)) return {};
+  return line;
 }
 
-// An imposed level must be known for the whole run.
-void require_span(Table& section, const Series& series, double end) {
+// Whether two straight pieces share more than a point; a tolerance in m.
+bool overlap(const Point* a, const Point* b, double tolerance) {
+  const double tx = a[1][0] - a[0][0], ty = a[1][1] - a[0][1], length = std::hypot(tx, ty);
+  double low = length, high = 0;
+  for (int k = 0; k < 2; ++k) {
+    const double x = b[k][0] - a[0][0], y = b[k][1] - a[0][1], along = (x * tx + y * ty) / length;
+    if (std::abs(x * ty - y * tx) / length > tolerance) return false;
+    low = std::min(low, along);
+    high = std::max(high, along);
+  }
+  return std::min(high, length) - std::max(low, 0.0) > tolerance;
+}
+
+// Water that crosses belongs to one boundary.
+void require_apart(const Table& section, const OpenBoundary& boundary, const Scene& scene) {
+  const double tolerance = 1e-6 * scene.water.spacing;
+  for (const OpenBoundary& other : scene.boundaries)
+    for (std::size_t k = 0; k + 1 < boundary.line.size(); ++k)
+      for (std::size_t l = 0; l + 1 < other.line.size(); ++l)
+        if (overlap(&boundary.line[k], &other.line[l], tolerance))
+          return section.error("name", "boundary '" + boundary.name + "' lies on boundary '" + other.name + "'",
+                               "let one end where the other begins");
+}
+
+// An imposed value must be known for the whole run.
+void require_span(const Table& section, const std::string& key, const Series& series, double end) {
   const double slack = 1e-9 * std::max(1.0, end);
+  if (series.t.empty() || end <= 0) return;
   if (series.t.front() > slack) {
-    section.error("series", "the series begins at t = " + shown(series.t.front()) + " s, the run at 0",
+    section.error(key, "the series begins at t = " + shown(series.t.front()) + " s, the run at 0",
                   "add a row for t = 0", Blame::data);
   }
   if (series.t.back() < end - slack) {
-    section.error("series",
+    section.error(key,
                   "the series ends at t = " + shown(series.t.back()) + " s, the run at " + shown(end) + " s",
                   "lengthen the series or shorten time.end", Blame::data);
   }
 }
 
+// { times = [...], values = [...] }
+Series read_inline(Table& table) {
+  Value<std::vector<double>> times = table.numbers("times"), values = table.numbers("values");
+  Series series{times.required(), values.required()};
+  if (series.t.empty() || series.t.size() != series.value.size()) {
+    values.fail("'" + table.path_of("values") + "' has " + counted(series.value.size(), "number") + ", 'times' has " +
+                    std::to_string(series.t.size()),
+                "give one value for each time");
+    return {};
+  }
+  if (std::adjacent_find(series.t.begin(), series.t.end(), std::greater_equal<double>()) != series.t.end()) {
+    times.fail("the times must increase strictly");
+    return {};
+  }
+  return series;
+}
+
+// A number, a series in a file or one written out.
+Series read_quantity(Table& section, const std::string& key, const std::string& unit, const Scene& scene) {
+  if (!section.has_table(key)) {
+    Value<double> number = section.number(key, unit);
+    number.required();
+    return number.optional() ? Series{{0.0}, {*number.optional()}} : Series{};
+  }
+  Table table = section.table(key);
+  const Series series = table.has("times") ? read_inline(table) : read_series(table, SeriesUse::forcing);
+  require_span(section, key, series, scene.end_time);
+  return series;
+}
+
 Series read_level(Table& section, const Scene& scene) {
   const std::string source = section.one_of({"series", "level"}, true);
-  if (source == "level") {
-    const double level = section.number("level", "m").otherwise(0);
-    return {{0.0}, {level}};
+  return source.empty() ? Series{} : read_quantity(section, source, "m", scene);
+}
+
+void read_imposed(Table& section, const Scene& scene, OpenBoundary& boundary) {
+  using Kind = OpenBoundary::Kind;
+  switch (boundary.kind) {
+    case Kind::elevation:
+    case Kind::wave: boundary.level = read_level(section, scene); break;
+    case Kind::velocity: boundary.velocity = read_quantity(section, "velocity", "m/s", scene); break;
+    case Kind::discharge:
+      boundary.discharge = read_quantity(section, "discharge", "m3/s", scene);
+      boundary.by_width =
+          section.choice<bool>("distribute", {{"conveyance", false}, {"width", true}}).otherwise(false);
+      break;
+    case Kind::state:
+      if (const std::string stage = section.one_of({"level", "depth"}, true); !stage.empty())
+        (stage == "level" ? boundary.level : boundary.depth) = read_quantity(section, stage, "m", scene);
+      boundary.velocity = read_quantity(section, "velocity", "m/s", scene);
+      break;
+    case Kind::transmissive:
+      if (section.has("level")) boundary.level = read_quantity(section, "level", "m", scene);
+      else section.number("level");  // known
   }
-  if (source.empty()) return {};
-  Table table = section.table("series");
-  if (!table.given()) return {};
-  const Series series = read_series(table, SeriesUse::forcing);
-  if (!series.t.empty() && scene.end_time > 0) require_span(section, series, scene.end_time);
-  return series;
 }
 
 }  // namespace
 
 void read_boundary(Table& section, Scene& scene) {
+  using Kind = OpenBoundary::Kind;
   OpenBoundary boundary;
   boundary.name = section.text("name").otherwise("boundary " + std::to_string(scene.boundaries.size() + 1));
-  boundary.kind = section
-                      .choice<OpenBoundary::Kind>("type", {{"elevation", OpenBoundary::Kind::elevation},
-                                                           {"wave", OpenBoundary::Kind::wave}})
-                      .required();
   const std::string source = section.one_of({"line", "side"}, true);
   if (source == "line") boundary.line = read_line(section, scene);
   if (source == "side") boundary.line = read_side(section, scene.domain);
-  boundary.level = read_level(section, scene);
+  boundary.spacing = section.number("spacing", "m").positive().otherwise(0);
+  Value<Kind> kind = section.choice<Kind>("type", {{"elevation", Kind::elevation},
+                                                   {"wave", Kind::wave},
+                                                   {"velocity", Kind::velocity},
+                                                   {"discharge", Kind::discharge},
+                                                   {"state", Kind::state},
+                                                   {"transmissive", Kind::transmissive}});
+  boundary.kind = kind.required();
+  if (kind.optional()) read_imposed(section, scene, boundary);
+  else section.accept_rest();
+  require_apart(section, boundary, scene);
   scene.boundaries.push_back(std::move(boundary));
 }
 

@@ -2,8 +2,10 @@
 #include <cmath>
 
 #include "src/reference/beach.hpp"
+#include "src/reference/bump.hpp"
 #include "src/reference/exact.hpp"
 #include "src/reference/radial.hpp"
+#include "src/reference/ritter.hpp"
 #include "src/scene/sections.hpp"
 
 namespace freshet::input {
@@ -30,6 +32,12 @@ Solution read_stoker(Table& table, const Scene& scene) {
   const double speed = right < left ? stoker_middle(left, right, scene.gravity).shock : 0;
   return {stoker(left, right, dam, scene.gravity),
           shown(left) + " m | " + shown(right) + " m, dam at " + shown(dam) + " m", speed, left / right};
+}
+
+Solution read_ritter(Table& table, const Scene& scene) {
+  const double left = table.number("left", "m").positive().required(1);
+  const double dam = table.number("dam", "m").required();
+  return {ritter(left, dam, scene.gravity), shown(left) + " m | dry, dam at " + shown(dam) + " m"};
 }
 
 Bowl read_bowl(Table& table, const Scene& scene) {
@@ -95,15 +103,28 @@ Solution read_beach(Table& table, const Scene& scene) {
           std::to_string(beach.humps.size()) + " humps on a slope of " + shown(beach.slope) + ", length " + shown(beach.length) + " m"};
 }
 
+Solution read_bump(Table& table, const Scene& scene) {
+  const Bump bump{table.number("height", "m").positive().required(1), table.number("at", "m").required(),
+                  table.number("half_width", "m").positive().required(1)};
+  const BumpFlow flow{table.number("velocity", "m/s").positive().required(1),
+                      table.number("inflow_depth", "m").positive().optional(),
+                      table.number("outflow_depth", "m").positive().optional()};
+  const auto exact = std::make_shared<SteadyBumpFlow>(bump, flow, scene.gravity);
+  const std::string jump = exact->jump() ? ", jump at x = " + rounded(*exact->jump()) + " m" : "";
+  return {exact, "q = " + rounded(exact->discharge()) + " m2/s" + jump};
+}
+
 Solution read_exact(Table& table, const Scene& scene) {
   using Reader = Solution (*)(Table&, const Scene&);
   const Reader reader = table
                             .choice<Reader>("type", {{"stoker", read_stoker},
+                                                     {"ritter", read_ritter},
                                                      {"thacker-planar", read_planar},
                                                      {"thacker-radial", read_radial},
                                                      {"radial-dam-break", read_radial_dam},
                                                      {"beach-wave", read_beach},
-                                                     {"rest", read_rest}})
+                                                     {"rest", read_rest},
+                                                     {"bump", read_bump}})
                             .required();
   if (!reader) {
     table.accept_rest();

@@ -38,25 +38,50 @@ std::string bed(const Scene& scene) {
                                : ", not smoothed");
 }
 
+std::string friction(const std::optional<Manning>& manning) {
+  if (!manning) return "none";
+  if (!manning->map) return "Manning n = " + brief(manning->n) + " s/m^(1/3)";
+  return "Manning n: " + manning->description + ", the nearest of a lattice of " + brief(manning->step[0]) + " m";
+}
+
 std::string water(const Scene& scene) {
   const Water& water = scene.water;
   const bool equal_mass = water.start == Water::Start::equal_mass;
   std::string out =
       "spacing " + brief(water.spacing) + (equal_mass ? " m in the deepest water, equal masses" : " m");
   if (water.surface) out += ", from its surface";
+  if (water.disorder > 0) out += ", disorder " + brief(water.disorder) + " of it (seed " + std::to_string(water.seed) + ")";
   return out + (water.velocity[0] ? ", moving" : ", at rest");
 }
 
+std::string imposed(const std::string& what, const Series& series, const std::string& unit) {
+  if (series.t.empty()) return "";
+  if (series.t.size() == 1) return ", " + what + ' ' + brief(series.value[0]) + ' ' + unit;
+  const auto range = std::minmax_element(series.value.begin(), series.value.end());
+  return ", " + counted(series.t.size(), "row") + ", t " + brief(series.t.front()) + " to " + brief(series.t.back()) + " s, " +
+         what + ' ' + brief(*range.first) + " to " + brief(*range.second) + ' ' + unit;
+}
+
+std::string kind_of(const OpenBoundary& boundary) {
+  switch (boundary.kind) {
+    case OpenBoundary::Kind::wave: return "incoming wave";
+    case OpenBoundary::Kind::velocity: return "imposed velocity";
+    case OpenBoundary::Kind::discharge:
+      return boundary.by_width ? "imposed discharge by width" : "imposed discharge by conveyance";
+    case OpenBoundary::Kind::state: return "imposed state";
+    case OpenBoundary::Kind::transmissive: return "transmissive";
+    default: return "imposed elevation";
+  }
+}
+
 std::string boundary(const OpenBoundary& boundary, const Domain& domain) {
-  const bool wave = boundary.kind == OpenBoundary::Kind::wave;
-  std::string out = boundary.name + ": " + (wave ? "incoming wave" : "imposed elevation") + ", ";
-  out += domain.dimension == 1 ? point(boundary.line[0], domain)
-                               : point(boundary.line[0], domain) + " to " + point(boundary.line[1], domain);
-  const Series& level = boundary.level;
-  if (level.t.size() == 1) return out + ", level " + brief(level.value[0]) + " m";
-  const auto range = std::minmax_element(level.value.begin(), level.value.end());
-  return out + ", " + counted(level.t.size(), "row") + ", t " + brief(level.t.front()) + " to " +
-         brief(level.t.back()) + " s, level " + brief(*range.first) + " to " + brief(*range.second) + " m";
+  std::string out = boundary.name + ": " + kind_of(boundary) + ", ";
+  const std::size_t points = domain.dimension == 1 ? 1 : boundary.line.size();
+  for (std::size_t k = 0; k < points; ++k) out += (k > 0 ? " to " : "") + point(boundary.line[k], domain);
+  out += imposed("level", boundary.level, "m") + imposed("depth", boundary.depth, "m") +
+         imposed("velocity", boundary.velocity, "m/s") +
+         imposed("discharge", boundary.discharge, domain.dimension == 1 ? "m2/s" : "m3/s");
+  return boundary.spacing > 0 ? out + ", spacing " + brief(boundary.spacing) + " m" : out;
 }
 
 std::string gauge(const Gauge& gauge, const Domain& domain) {
@@ -72,6 +97,15 @@ std::string run_up(const RunUp& run_up, const Domain& domain) {
       run_up.name + " at " + point(run_up.at, domain) + ", radius " + brief(run_up.radius) + " m";
   if (!run_up.measured) return out;
   return out + ", measured " + brief((*run_up.measured)[0]) + " to " + brief((*run_up.measured)[1]) + " m";
+}
+
+std::string profile(const Transect& profile, const Domain& domain) {
+  std::string out = profile.name + " from " + point(profile.line[0], domain) + " to " + point(profile.line[1], domain);
+  out += " at t = " + brief(profile.time) + " s";
+  if (!profile.measured) return out;
+  const Series& measured = *profile.measured;
+  return out + ", measured " + counted(measured.t.size(), "row") + " from " + brief(measured.t.front()) + " to " +
+         brief(measured.t.back()) + " m";
 }
 
 std::string numerics(const Scene& scene) {
@@ -95,6 +129,14 @@ std::string output(const Scene& scene) {
   return out;
 }
 
+std::string rasters(const Rasters& rasters) {
+  std::string out = "cells of " + brief(rasters.spacing) + " m, ";
+  out += rasters.what.empty() ? "no maps in time" : counted(rasters.what.size(), "map") + ' ';
+  if (!rasters.what.empty()) out += rasters.every > 0 ? "every " + brief(rasters.every) + " s" : "first and last";
+  if (rasters.maxima) out += ", maxima and arrival above " + brief(rasters.arrival) + " m in every step";
+  return out;
+}
+
 std::string compare(const Compare& compare) {
   std::string out = compare.description + ", depths above " + brief(compare.threshold) + " m";
   for (const double t : compare.times) out += (t == compare.times.front() ? ", also at " : ", ") + brief(t);
@@ -115,15 +157,17 @@ std::vector<std::string> describe(const Scene& scene) {
   add("scene", scene.name + " (" + scene.file + ")");
   add("domain", extent(scene.domain));
   add("bed", bed(scene));
-  add("friction", scene.manning ? "Manning n = " + brief(*scene.manning) + " s/m^(1/3)" : "none");
+  add("friction", friction(scene.manning));
   add("water", water(scene));
   add("walls", counted(scene.walls.size(), "line"));
   for (const OpenBoundary& b : scene.boundaries) add("boundary", boundary(b, scene.domain));
   for (const Gauge& g : scene.gauges) add("gauge", gauge(g, scene.domain));
   for (const RunUp& r : scene.run_ups) add("run-up", run_up(r, scene.domain));
+  for (const Transect& p : scene.profiles) add("profile", profile(p, scene.domain));
   add("time", "0 to " + brief(scene.end_time) + " s");
   add("method", numerics(scene));
   add("output", output(scene));
+  if (scene.rasters) add("raster", rasters(*scene.rasters));
   if (scene.compare.exact) add("compare", compare(scene.compare));
   for (const std::string& note : scene.notes) add("note", note);
   return lines;

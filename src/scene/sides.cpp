@@ -21,7 +21,7 @@ struct Opening {
 };
 
 // Empty unless the line lies on the side.
-Opening opening_in(const Piece& side, const std::array<Point, 2>& line, double tolerance) {
+Opening opening_in(const Piece& side, const Point* line, double tolerance) {
   const double dx = side.to[0] - side.from[0], dy = side.to[1] - side.from[1], length = std::hypot(dx, dy);
   std::array<double, 2> part{};
   for (int k = 0; k < 2; ++k) {
@@ -36,10 +36,11 @@ Opening opening_in(const Piece& side, const std::array<Point, 2>& line, double t
 std::vector<Piece> closed_parts(const Piece& side, const Scene& scene) {
   constexpr double none = 1e-9;  // of the side: shorter pieces are rounding
   std::vector<Opening> openings;
-  for (const OpenBoundary& boundary : scene.boundaries) {
-    const Opening opening = opening_in(side, boundary.line, none * diagonal(scene.domain));
-    if (opening.to - opening.from > none) openings.push_back(opening);
-  }
+  for (const OpenBoundary& boundary : scene.boundaries)
+    for (std::size_t k = 0; k + 1 < boundary.line.size(); ++k) {
+      const Opening opening = opening_in(side, &boundary.line[k], none * diagonal(scene.domain));
+      if (opening.to - opening.from > none) openings.push_back(opening);
+    }
   std::sort(openings.begin(), openings.end(),
             [](const Opening& a, const Opening& b) { return a.from < b.from; });
   openings.push_back({1, 1, side.to, side.to});
@@ -57,7 +58,7 @@ std::vector<Piece> closed_parts(const Piece& side, const Scene& scene) {
 
 void add_ends(Scene& scene) {
   for (const double x : {scene.domain.low[0], scene.domain.high[0]}) {
-    const auto here = [x](const OpenBoundary& boundary) { return boundary.line[0][0] == x; };
+    const auto here = [x](const OpenBoundary& boundary) { return !boundary.line.empty() && boundary.line[0][0] == x; };
     if (std::none_of(scene.boundaries.begin(), scene.boundaries.end(), here))
       scene.walls.push_back({{Point{x, 0}}});
   }

@@ -94,6 +94,26 @@ Value<std::string> Table::word(const std::string& key, const std::vector<std::st
   return found;
 }
 
+Value<std::vector<std::string>> Table::words(const std::string& key, const std::vector<std::string>& known) {
+  const toml::node* node = find(key);
+  std::optional<std::vector<std::string>> found;
+  if (node && !node->is_array()) wrong_type(key, *node, "an array of " + listed(known));
+  if (!node || !node->is_array()) return value(key, found, "an array of " + listed(known));
+  found.emplace();
+  for (const toml::node& element : *node->as_array()) {
+    const auto word = element.value<std::string>();
+    if (word && std::find(known.begin(), known.end(), *word) != known.end()) {
+      found->push_back(*word);
+      continue;
+    }
+    const std::string given = word ? "'" + *word + "'" : type_name(element);
+    context_.diagnostics.error(place_from(element.source()),
+                               "'" + path_of(key) + "' holds " + given + "; wanted: " + listed(known),
+                               word ? did_you_mean(*word, known) : "");
+  }
+  return value(key, found);
+}
+
 Value<std::vector<double>> Table::numbers(const std::string& key, const std::string& what) {
   const toml::node* node = find(key);
   std::optional<std::vector<double>> found;

@@ -99,7 +99,9 @@ void note_leak(Table& section, const Scene& scene, std::size_t wall, const Point
     }
     if (other == wall && line.size() > 2) gap = std::min(gap, distance(line.front(), line.back(), line.back()));
   }
-  for (const OpenBoundary& boundary : scene.boundaries) gap = std::min(gap, distance(end, boundary.line[0], boundary.line[1]));
+  for (const OpenBoundary& boundary : scene.boundaries)
+    for (std::size_t k = 0; k + 1 < boundary.line.size(); ++k)
+      gap = std::min(gap, distance(end, boundary.line[k], boundary.line[k + 1]));
   if (gap <= 1e-6 * scene.water.spacing || gap > 1e299) return;
   section.context().notes.push_back("a wall ends at " + shown(end, scene.domain) + ", " + rounded(gap) +
                                     " m from the next wall or open boundary: water can leak out there");

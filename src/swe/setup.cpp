@@ -25,76 +25,27 @@ void set_field(const Field<double>& field, const std::vector<Placed>& particles,
   Kokkos::deep_copy(field, host);
 }
 
-OpenLine<1> open_line(const std::array<Point, 2>& line, Vec<double, 1>) {
-  return {{line[0][0]}, {line[0][1] > line[1][1] ? 1.0 : -1.0}, {0.0}, 1.0};
-}
-OpenLine<2> open_line(const std::array<Point, 2>& line, Vec<double, 2>) {
-  const double tx = line[1][0] - line[0][0], ty = line[1][1] - line[0][1], length = std::hypot(tx, ty);
-  return {{line[0][0], line[0][1]}, {-ty / length, tx / length}, {tx / length, ty / length}, length};
-}
-
-// A wall that ends on an open line goes on beside its buffer, by whole cells of the lattice that fits its length.
-void extend_past(std::vector<Point>& wall, const std::vector<freshet::OpenBoundary>& boundaries, double spacing) {
-  constexpr double cells = 8;
-  const auto extend = [&](Point& end, const Point& before) {
-    for (const auto& boundary : boundaries)
-      for (const Point& corner : boundary.line) {
-        if (std::hypot(end[0] - corner[0], end[1] - corner[1]) > 1e-3 * spacing) continue;
-        const double length = std::hypot(end[0] - before[0], end[1] - before[1]);
-        const double share = cells / std::max(1.0, std::round(length / spacing));
-        for (int k = 0; k < 2; ++k) end[k] += share * (end[k] - before[k]);
-        return;
-      }
-  };
-  if (wall.size() < 2) return;
-  extend(wall.front(), wall[1]);
-  extend(wall.back(), wall[wall.size() - 2]);
-}
-
-WallKind wall_kind(Walling wanted, bool exact_images) {
-  switch (wanted) {
-    case Walling::none: return WallKind::none;
-    case Walling::vbp: return WallKind::vbp;
-    case Walling::mvbp: return WallKind::mvbp;
-    case Walling::rows: return WallKind::rows;
-    case Walling::mirror: return WallKind::mirror;
-    case Walling::automatic: break;
-  }
-  return exact_images ? WallKind::mirror : WallKind::rows;
-}
-
 }  // namespace
 
+// On slopes below 1e-3 the variational acceleration differs from the classical one by 1e-6 g: the bed's curvature is not
+// looked up there.
 template <int D>
 void Solver<D>::build_bed() {
+  constexpr double flat = 1e-3;
   if (!scene_.bed.elevation) return;
   const double spacing = scene_.bed.spacing > 0 ? scene_.bed.spacing : scene_.water.spacing;
-  bed_ = Bed<D>{BedSpline<D>(scene_.bed.elevation, {scene_.domain.low, scene_.domain.high, spacing, scene_.bed.filter}),
-                scene_.sph.acceleration == Acceleration::variational, {}};
+  bed_ = Bed<D>{BedSpline<D>(scene_.bed.elevation, {scene_.domain.low, scene_.domain.high, spacing, scene_.bed.filter}), false, {}};
+  bed_->variational = scene_.sph.acceleration == Acceleration::variational && bed_->spline.steepest() >= flat;
 }
 
 template <int D>
-void Solver<D>::build_boundaries() {
-  for (const auto& b : scene_.boundaries)
-    boundaries_.emplace_back(open_line(b.line, Vec<double, D>{}),
-                             b.kind == freshet::OpenBoundary::Kind::wave ? OpenKind::wave : OpenKind::elevation,
-                             [series = b.level](double t) { return series.at(t); }, scene_.water.spacing, scene_.sph.eta,
-                             scene_.gravity);
-}
-
-template <int D>
-void Solver<D>::build_walls() {
-  if (scene_.walls.empty()) return;
-  std::vector<std::vector<Point>> lines;
-  for (const Wall& wall : scene_.walls) {
-    lines.push_back(wall.line);
-    if (D == 2) extend_past(lines.back(), scene_.boundaries, scene_.water.spacing);
-  }
-  const Point middle{0.5 * (scene_.domain.low[0] + scene_.domain.high[0]), 0.5 * (scene_.domain.low[1] + scene_.domain.high[1])};
-  const WallKind kind = wall_kind(scene_.sph.walls, D == 1 || only_right_corners(lines));
-  // Rows reach as deep as the support of an h half as long again as the first.
-  const double dx = scene_.water.spacing, reach = 1.5 * support_ * scene_.sph.eta * dx;
-  walls_.emplace(lines, WallOptions{kind, dx, reach, scene_.sph.slip}, middle, support_);
+void Solver<D>::build_friction() {
+  if (!scene_.manning) return;
+  const Manning& manning = *scene_.manning;
+  friction_ = Friction{scene_.gravity, manning.n};
+  if (!manning.map) return;
+  const auto squared = [&](double x, double y) { const double n = manning.map(x, y); return n * n; };
+  friction_->roughness2 = NearestTable(squared, {scene_.domain.low, scene_.domain.high, manning.node, manning.step});
 }
 
 // Depth at t = 0 over the bed as the particles feel it: filtered and tabulated.
@@ -160,7 +111,8 @@ void Solver<D>::make_fields() {
   f.integer("id", "1", Carry::state);
   if (gradient_)
     for (const char* name : {"strain_xx", "strain_xy", "strain_yy"})
-      if (D == 2 || name == std::string("strain_xx")) f.real(name, "1/s", Carry::no);
+      if (D == 2 || name == std::string("strain_xx"))
+        f.real(name, "1/s", scene_.split && scene_.split->linear ? Carry::result : Carry::no);
   if (depth_gradient_) vector("depth_slope_x", "depth_slope_y", "1", Carry::no);
   if (scene_.sph.well_balanced) f.real("calibration", "1", Carry::state);
   if (bed_) f.real("bed", "m", Carry::result);

@@ -9,6 +9,7 @@
 #include "src/io/fluid.hpp"
 #include "src/method.hpp"
 #include "src/run/driver.hpp"
+#include "src/run/gauge_stats.hpp"
 #include "src/scene/read.hpp"
 #include "tests/support/scratch.hpp"
 
@@ -18,12 +19,21 @@ inline Scene read_case(const std::string& name, const std::vector<std::string>& 
   return read_scene(std::string(build::source_dir) + "/cases/" + name + ".toml", overrides);
 }
 
-struct Finished {
+struct CaseRun {
   Summary summary;
-  Fluid fluid;
+  std::vector<Series> gauges;  // m, elevations in the order of the scene
+  Fluid fluid;                 // at the end
+
+  template <class Where>
+  double mass_where(const Where& where) const {  // m3
+    double sum = 0;
+    for (std::size_t i = 0; i < fluid.size(); ++i)
+      if (where(fluid.x[i], fluid.y[i])) sum += fluid.mass[i];
+    return sum;
+  }
 };
 
-inline Finished finish_case(const std::string& name, const std::vector<std::string>& overrides = {}) {
+inline CaseRun finish_case(const std::string& name, const std::vector<std::string>& overrides = {}) {
   const Scratch scratch;
   const Scene scene = read_case(name, overrides);
   const auto method = make_method(scene);
@@ -32,7 +42,9 @@ inline Finished finish_case(const std::string& name, const std::vector<std::stri
   Driver driver(scene, *method, options);
   driver.begin();
   driver.run();
-  return {driver.summary(), fluid_on_host(method->fields())};
+  CaseRun run{driver.summary(), {}, fluid_on_host(method->fields())};
+  for (std::size_t g = 0; g < scene.gauges.size(); ++g) run.gauges.push_back(gauge_series(driver.gauge_rows(), g));
+  return run;
 }
 
 inline Summary run_case(const std::string& name, const std::vector<std::string>& overrides = {}) {

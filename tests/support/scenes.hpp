@@ -33,18 +33,36 @@ inline void close_box(Scene& scene) {
     scene.walls = {Wall{{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}, {x0, y0}}}};
 }
 
+// An open boundary at x = x0 or x = x1 of the domain, all over it.
+inline OpenBoundary open_end(const Scene& scene, bool left, OpenBoundary::Kind kind) {
+  const auto [x0, y0] = scene.domain.low;
+  const auto [x1, y1] = scene.domain.high;
+  OpenBoundary boundary;
+  boundary.name = left ? "left" : "right";
+  const double low = scene.domain.dimension == 2 ? y0 : 0, high = scene.domain.dimension == 2 ? y1 : 1;
+  if (left) boundary.line = {{x0, high}, {x0, low}};
+  else boundary.line = {{x1, low}, {x1, high}};
+  boundary.kind = kind;
+  return boundary;
+}
+
 // Open on the left, walls elsewhere.
-inline void open_left(Scene& scene, OpenBoundary::Kind kind, const Series& level) {
+inline void open_left(Scene& scene, OpenBoundary::Kind kind, Series level) {
   const auto [x0, y0] = scene.domain.low;
   const auto [x1, y1] = scene.domain.high;
   const bool plane = scene.domain.dimension == 2;
-  OpenBoundary boundary;
-  boundary.name = "left";
-  boundary.line = plane ? std::array<freshet::Point, 2>{{{x0, y1}, {x0, y0}}} : std::array<freshet::Point, 2>{{{x0, 1}, {x0, 0}}};
-  boundary.kind = kind;
-  boundary.level = level;
-  scene.boundaries = {boundary};
+  scene.boundaries = {open_end(scene, true, kind)};
+  scene.boundaries[0].level = std::move(level);
   scene.walls = {plane ? Wall{{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}} : Wall{{{x1, 0}}}};
+}
+
+// Open at both ends, walls along the channel: the caller sets what is imposed.
+inline void open_both(Scene& scene, OpenBoundary::Kind left, OpenBoundary::Kind right) {
+  const auto [x0, y0] = scene.domain.low;
+  const auto [x1, y1] = scene.domain.high;
+  scene.boundaries = {open_end(scene, true, left), open_end(scene, false, right)};
+  scene.walls.clear();
+  if (scene.domain.dimension == 2) scene.walls = {Wall{{{x0, y0}, {x1, y0}}}, Wall{{{x1, y1}, {x0, y1}}}};
 }
 
 // A method and its clock. The tests' execution spaces share the host's memory.

@@ -14,7 +14,7 @@ constexpr double pi = 3.14159265358979323846;
 constexpr double radius = 3000, displacement = 1500, radial_amplitude = 0.5;  // m, m, 1: of the cases
 
 // Five periods, with the errors after the first as well.
-test::Finished five_periods(const std::string& name) {
+test::CaseRun five_periods(const std::string& name) {
   char one[64];
   std::snprintf(one, sizeof one, "compare.times=[%.17g]", test::read_case(name).compare.exact->period());
   return test::finish_case(name, {"time.end={periods=5}", one});
@@ -52,7 +52,7 @@ Oscillation breathing(const Fluid& fluid, double period) {
   return {std::hypot(cosine, sine) / radial_amplitude, std::atan2(sine, cosine) * 180 / pi};
 }
 
-void check_after_five_periods(const test::Finished& run, const Oscillation& oscillation) {
+void check_after_five_periods(const test::CaseRun& run, const Oscillation& oscillation) {
   REQUIRE(run.summary.errors_at.size() == 1);
   const ErrorNorms& after_one = run.summary.errors_at[0].errors;
   CHECK(after_one.depth_l2_rel <= 2e-3);
