@@ -8,7 +8,7 @@
 
 namespace freshet {
 
-// All norms below at one time, over the particles (and cells) inside scene.compare.where.
+// The two below together, over the particles inside scene.compare.where.
 ErrorNorms error_norms(const Scene& scene, const Fluid& fluid, double t);
 
 // sqrt(sum (d - d_e)^2 / sum d_e^2) over the particles; likewise their largest |d - d_e| [m] and rms |v -
