@@ -86,6 +86,12 @@ std::string numerics(const Scene& scene) {
                                                             : ", variational acceleration");
 }
 
+std::string area(const AreaLimit& limit) {
+  std::string out = limit.elsewhere ? brief(*limit.elsewhere) + " spacing^D" : "";
+  if (!limit.regions.empty()) out += (out.empty() ? "" : ", ") + counted(limit.regions.size(), "region");
+  return out;
+}
+
 std::string output(const Scene& scene) {
   const Output& output = scene.output;
   std::string out =
@@ -123,6 +129,8 @@ std::vector<std::string> describe(const Scene& scene) {
   for (const RunUp& r : scene.run_ups) add("run-up", run_up(r, scene.domain));
   add("time", "0 to " + brief(scene.end_time) + " s");
   add("method", numerics(scene));
+  if (scene.split) add("split", "into " + std::to_string(scene.split->into) + " from " + area(scene.split->area));
+  if (scene.merge) add("merge", "below " + area(scene.merge->area));
   add("output", output(scene));
   if (scene.compare.exact) add("compare", compare(scene.compare));
   for (const std::string& note : scene.notes) add("note", note);
