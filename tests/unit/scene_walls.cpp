@@ -75,7 +75,7 @@ TEST_CASE("A wall that does not close is told with its gap") {
 TEST_CASE("Walls that cannot be are errors that say what to do") {
   CHECK(says(fault("[[wall]]\npolygon = [[0, 0], [1, 1], [1, 0], [0, 1]]\nwater = \"inside\"\n"), "crosses itself"));
   CHECK(says(fault("[[wall]]\npolygon = [[0, 0], [1, 1]]\nwater = \"inside\"\n"), "at least 3 points"));
-  CHECK(says(fault("[[wall]]\npolygon = [[0, 0], [1, 0], [0, 1]]\n"), "wall.water"));
+  CHECK(says(fault("[[wall]]\npolygon = [[0, 0], [1, 0], [0, 1]]\n"), "water' is missing"));
   CHECK(says(fault("[[wall]]\nline = [[0, 0], [1, 0], [1, 0]]\n"), "repeats the one before it"));
   CHECK(says(fault("[[wall]]\nline = [[0, 0], [1, 0]]\n[sph]\nwalls = \"mirror\"\nslip = false\n"), "cannot hold"));
   CHECK(says(fault("[sph]\nstabilise = \"two-shock\"\nstrength = 0.5\n"), "strength"));
