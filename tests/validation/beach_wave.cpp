@@ -14,7 +14,7 @@ namespace {
 const Beach beach{0.1, 5000, {{0.006, 0.4444, 4.1209}, {-0.018, 4.0, 1.6384}}};
 
 // How far the outermost particle lies seawards of the exact shore [m].
-double lag(const test::Finished& run) {
+double lag(const test::CaseRun& run) {
   const double innermost = *std::min_element(run.fluid.x.begin(), run.fluid.x.end());
   return innermost - beach_shore(beach, 9.81, run.summary.simulated).x;
 }
