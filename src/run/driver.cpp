@@ -60,6 +60,7 @@ Driver::Driver(const Scene& scene, Method& method, RunOptions options)
 void Driver::begin() {
   initial_particles_ = fluid_count(method_.fields());
   initial_mechanics_ = method_.mechanics();
+  energy_watch_.start(initial_mechanics_);
   monitor_.start(method_.totals().mass);
   particles_.create(scene_.text, build::version);
   gauges_.begin(method_);
@@ -74,8 +75,7 @@ bool Driver::run() {
     while (!finished(clock_, scene_)) {
       if (options_.stop && *options_.stop) break;
       step();
-      monitor_.check(method_, clock_);
-      if (clock_.step % 100 == 0) monitor_.check_all(method_, clock_);
+      check();
       gauges_.record(method_, clock_.t);
       run_ups_.record(method_);
       steady_.record(method_);
@@ -103,6 +103,13 @@ void Driver::step() {
   dt_ = stride.dt;
   strain_.record(method_.report(), clock_);
   progress_.count(method_.fields().size());
+}
+
+void Driver::check() {
+  monitor_.check(method_, clock_);
+  if (clock_.step % 100 != 0) return;
+  monitor_.check_all(method_, clock_);
+  if (scene_.boundaries.empty()) energy_watch_.record(method_.mechanics(), clock_);
 }
 
 void Driver::fire_events() {
@@ -170,6 +177,7 @@ Values Driver::run_values() const {
   values["dt"] = {dt_};
   values["effort"] = {wall(), earlier_particle_steps_ + progress_.particle_steps()};
   strain_.save(values);
+  energy_watch_.save(values);
   gauges_.save(values);
   run_ups_.save(values);
   profiles_.save(values);
@@ -194,6 +202,7 @@ void Driver::restore(const Checkpoint& checkpoint) {
   earlier_wall_ = run.at("effort").at(0);
   earlier_particle_steps_ = run.at("effort").at(1);
   strain_.restore(run);
+  energy_watch_.restore(run);
   gauges_.restore(run);
   run_ups_.restore(run);
   profiles_.restore(run);
@@ -225,6 +234,12 @@ EnergyBalance Driver::energy_balance() const {
   const Mechanics &start = initial_mechanics_, end = method_.mechanics();
   return {start.kinetic, start.potential, end.kinetic, end.potential,
           {start.momentum[0], start.momentum[1]}, {end.momentum[0], end.momentum[1]}};
+}
+
+std::vector<std::string> Driver::warnings() const {
+  std::vector<std::string> all = strain_.warnings(method_.report());
+  for (const auto& line : energy_watch_.warnings()) all.push_back(line);
+  return all;
 }
 
 std::vector<GaugeResult> Driver::gauge_results() const {
@@ -269,7 +284,7 @@ Summary Driver::summary() const {
   s.particle_steps_per_s = (earlier_particle_steps_ + progress_.particle_steps()) / std::max(s.wall, 1e-9);
   s.mass = mass_balance();
   s.energy = energy_balance();
-  s.warnings = strain_.warnings(method_.report());
+  s.warnings = warnings();
   s.gauges = gauge_results();
   s.run_ups = run_up_results();
   s.profiles = profiles_.results();

@@ -41,6 +41,7 @@ class Driver {
 
  private:
   void step();
+  void check();
   void fire_events();
   void write_particles();
   void write_state(const std::string& name);
@@ -49,6 +50,7 @@ class Driver {
   Values run_values() const;
   MassBalance mass_balance() const;
   EnergyBalance energy_balance() const;
+  std::vector<std::string> warnings() const;
   std::vector<GaugeResult> gauge_results() const;
   std::vector<RunUpResult> run_up_results() const;
   ErrorNorms errors() const;
@@ -66,6 +68,7 @@ class Driver {
   SteadyRecorder steady_;
   RasterRecorder rasters_;
   Strain strain_;
+  EnergyWatch energy_watch_;
   ParticleFile particles_;
   Progress progress_;
   std::vector<double> l1_samples_;  // depth_l1_rel at the comparison times

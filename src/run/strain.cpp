@@ -63,4 +63,25 @@ void Strain::restore(const Values& values) {
   outgrown_ = {k.at(3), k.at(4), k.at(5)};
 }
 
+void EnergyWatch::record(const Mechanics& mechanics, const Clock& clock) {
+  kinetic_ = std::max(kinetic_, mechanics.kinetic);
+  gain_ = std::max(gain_, mechanics.kinetic + mechanics.potential - start_);
+  if (first_ < 0 && gain_ > most_gain * kinetic_) first_ = clock.t;
+}
+
+std::vector<std::string> EnergyWatch::warnings() const {
+  if (first_ < 0) return {};
+  char text[400];
+  std::snprintf(text, sizeof text,
+                "the water gained energy, up to %.3g m5/s2 per unit density, largest kinetic energy %.3g; first noticed at t = %.6g s\n"
+                "  help: the results may be worthless: a smaller time.cfl, or a stabilisation (sph.stabilise)",
+                gain_, kinetic_, first_);
+  return {text};
+}
+
+void EnergyWatch::restore(const Values& values) {
+  const auto& v = values.at("energy_watch");
+  start_ = v.at(0), kinetic_ = v.at(1), gain_ = v.at(2), first_ = v.at(3);
+}
+
 }  // namespace freshet

@@ -37,4 +37,20 @@ class Strain {
   Kind labour_, outgrown_;
 };
 
+// Notices water that gains energy where nothing feeds it: in a scene without open boundaries its energy cannot grow.
+class EnergyWatch {
+ public:
+  static constexpr double most_gain = 0.05;  // of the largest kinetic energy; an integrator's error is below 0.005
+
+  void start(const Mechanics& mechanics) { start_ = mechanics.kinetic + mechanics.potential; }
+  void record(const Mechanics& mechanics, const Clock& clock);
+  std::vector<std::string> warnings() const;
+
+  void save(Values& values) const { values["energy_watch"] = {start_, kinetic_, gain_, first_}; }
+  void restore(const Values& values);
+
+ private:
+  double start_ = 0, kinetic_ = 0, gain_ = 0, first_ = -1;  // m5/s2: at the start, largest so far, largest gain; s: first alarm
+};
+
 }  // namespace freshet

@@ -5,6 +5,7 @@
 
 #include "src/scene/files.hpp"
 #include "src/scene/grid_file.hpp"
+#include "src/scene/region.hpp"
 #include "src/scene/sections.hpp"
 
 namespace freshet::input {
@@ -19,67 +20,34 @@ Value<double> read_n(Table& section, const std::string& key) {
   return n;
 }
 
-// Even-odd rule: is the point inside the closed polygon?
-bool encloses(const std::vector<Point>& polygon, double x, double y) {
-  bool inside = false;
-  for (std::size_t k = 0, before = polygon.size() - 1; k < polygon.size(); before = k++) {
-    const Point a = polygon[k], b = polygon[before];
-    if ((a[1] > y) != (b[1] > y) && x < a[0] + (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1])) inside = !inside;
-  }
-  return inside;
-}
-
 struct Region {
-  std::vector<Point> polygon;
+  std::vector<Point> corners;
   double n = 0;
-};
 
-std::vector<Point> read_box(Table& region, int dimension) {
-  const bool line = dimension == 1;
-  Value<std::vector<double>> box = region.numbers("box", line ? "numbers in m: x0, x1" : "numbers in m: x0, y0, x1, y1");
-  std::vector<double> b = box.required();
-  if (!box.optional()) return {};
-  if (b.size() != (line ? 2u : 4u)) {
-    box.fail("'" + region.path_of("box") + "' has " + std::to_string(b.size()) + " numbers; " +
-             (line ? "a 1-D scene wants [x0, x1]" : "wanted: [x0, y0, x1, y1]"));
-    return {};
+  bool holds(double x, double y, bool line) const {
+    if (corners.size() < 2) return false;
+    return line ? corners[0][0] <= x && x < corners[1][0] : encloses(corners, {x, y});
   }
-  if (line) b = {b[0], -1, b[1], 1};
-  if (!(b[0] < b[2] && b[1] < b[3])) box.fail("'" + region.path_of("box") + "' must have its low corner first");
-  return {{b[0], b[1]}, {b[2], b[1]}, {b[2], b[3]}, {b[0], b[3]}};
-}
-
-std::vector<Point> read_polygon(Table& region, int dimension) {
-  Value<std::vector<Point>> polygon = region.points("polygon");
-  const std::vector<Point> corners = polygon.required();
-  if (polygon.optional() && dimension == 1) polygon.fail("a polygon needs a 2-D scene", "use box = [x0, x1]");
-  if (polygon.optional() && corners.size() < 3)
-    polygon.fail("'" + region.path_of("polygon") + "' has " + std::to_string(corners.size()) + " corners; at least 3 are wanted");
-  return corners;
-}
-
-Region read_region(Table region, int dimension) {
-  const std::string shape = region.one_of({"box", "polygon"}, true);
-  Region read;
-  if (!shape.empty()) read.polygon = shape == "box" ? read_box(region, dimension) : read_polygon(region, dimension);
-  read.n = read_n(region, "n").required();
-  return read;
-}
+};
 
 // The first region that holds the place decides. The lattice is that of the bed or, where it is finer, of the water.
 Manning read_regions(Table& section, const Scene& scene) {
   const double rest = read_n(section, "default").required();
+  const bool line = scene.domain.dimension == 1;
   std::vector<Region> regions;
-  for (std::size_t k = 0; k < section.size_of("regions"); ++k)
-    regions.push_back(read_region(section.element("regions", k), scene.domain.dimension));
+  for (std::size_t k = 0; k < section.size_of("regions"); ++k) {
+    Table region = section.element("regions", k);
+    const std::vector<Point> corners = read_region(region, scene.domain.dimension);
+    regions.push_back({corners, read_n(region, "n").required()});
+  }
   Manning manning(rest);
   const double step = std::min(scene.water.spacing, scene.bed.spacing > 0 ? scene.bed.spacing : scene.water.spacing);
-  manning.node = {scene.domain.low[0] + 0.5 * step, scene.domain.dimension == 2 ? scene.domain.low[1] + 0.5 * step : 0};
+  manning.node = {scene.domain.low[0] + 0.5 * step, line ? 0 : scene.domain.low[1] + 0.5 * step};
   manning.step = {step, step};
   manning.description = std::to_string(regions.size()) + " regions, elsewhere n = " + shown(rest) + " s/m^(1/3)";
-  manning.map = [regions, rest](double x, double y) {
+  manning.map = [regions, rest, line](double x, double y) {
     for (const Region& region : regions)
-      if (encloses(region.polygon, x, y)) return region.n;
+      if (region.holds(x, y, line)) return region.n;
     return rest;
   };
   return manning;

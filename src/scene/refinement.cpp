@@ -1,31 +1,9 @@
 // [split] and [merge]: how much area particles may and must cover.
+#include "src/scene/region.hpp"
 #include "src/scene/sections.hpp"
 
 namespace freshet::input {
 namespace {
-
-std::vector<Point> box_corners(Table& region, int dimension) {
-  Value<std::vector<double>> box =
-      region.numbers("box", dimension == 1 ? "numbers in m: x0, x1" : "numbers in m: x0, y0, x1, y1");
-  const std::vector<double> b = box.otherwise({});
-  const std::size_t needed = dimension == 1 ? 2 : 4;
-  const bool ordered = b.size() == needed && b[0] < b[needed / 2] && (dimension == 1 || b[1] < b[3]);
-  if (!b.empty() && !ordered)
-    box.fail("'" + region.path_of("box") + "' must be " + (dimension == 1 ? "[x0, x1]" : "[x0, y0, x1, y1]") +
-             ", its low corner first");
-  if (!ordered) return {};
-  if (dimension == 1) return {{b[0], 0}, {b[1], 0}};
-  return {{b[0], b[1]}, {b[2], b[1]}, {b[2], b[3]}, {b[0], b[3]}};
-}
-
-std::vector<Point> polygon_corners(Table& region, int dimension) {
-  const std::vector<Point> corners = region.points("polygon").otherwise({});
-  if (dimension == 1)
-    region.error("polygon", "a 1-D scene has no polygons", "write box = [x0, x1]");
-  else if (!corners.empty() && corners.size() < 3)
-    region.error("polygon", "'" + region.path_of("polygon") + "' must have three points at least");
-  return corners;
-}
 
 AreaLimit read_area(Table& section, const Scene& scene) {
   AreaLimit limit;
@@ -33,10 +11,8 @@ AreaLimit read_area(Table& section, const Scene& scene) {
   const std::size_t count = section.size_of("region");
   for (std::size_t i = 0; i < count; ++i) {
     Table region = section.element("region", i);
-    const std::string shape = region.one_of({"box", "polygon"}, true);
     AreaLimit::Region read;
-    if (shape == "box") read.corners = box_corners(region, scene.domain.dimension);
-    if (shape == "polygon") read.corners = polygon_corners(region, scene.domain.dimension);
+    read.corners = read_region(region, scene.domain.dimension);
     read.area = region.number("area", "spacing^D").positive().required(1);
     limit.regions.push_back(std::move(read));
   }

@@ -102,8 +102,8 @@ TEST_CASE("manning: errors name file, line, what is wrong and what to do") {
   CHECK_THAT(wrong("{ regions = [{ box = [0, 0, 1, 1], n = 0.1 }] }"), Catch::Contains("'bed.manning.default' is missing"));
   CHECK_THAT(wrong("{ default = 0.03, regions = [{ box = [0, 0, 1, 1] }] }"), Catch::Contains("'bed.manning.regions.0.n' is missing"));
   CHECK_THAT(wrong("{ default = 0.03, regions = [{ n = 0.1 }] }"), Catch::Contains("one of 'box' or 'polygon' is missing"));
-  CHECK_THAT(wrong("{ default = 0.03, regions = [{ box = [0, 1], n = 0.1 }] }"), Catch::Contains("wanted: [x0, y0, x1, y1]"));
-  CHECK_THAT(wrong("{ default = 0.03, regions = [{ polygon = [[0, 0], [1, 1]], n = 0.1 }] }"), Catch::Contains("at least 3 are wanted"));
+  CHECK_THAT(wrong("{ default = 0.03, regions = [{ box = [0, 1], n = 0.1 }] }"), Catch::Contains("must be [x0, y0, x1, y1], its low corner first"));
+  CHECK_THAT(wrong("{ default = 0.03, regions = [{ polygon = [[0, 0], [1, 1]], n = 0.1 }] }"), Catch::Contains("must have three points at least"));
   CHECK_THAT(wrong("{ default = 0.03 }"), Catch::Contains("one of 'file' or 'regions' is missing"));
 }
 

@@ -67,3 +67,23 @@ TEST_CASE("strain: survives a restart in the middle of a span") {
   CHECK(second.warnings(report) == wanted);
   CHECK(wanted.size() == 2);
 }
+
+TEST_CASE("strain: energy that grows in a closed basin is named, with the time when it was noticed") {
+  EnergyWatch watch;
+  const auto at = [](double kinetic, double potential) {
+    Mechanics m;
+    m.kinetic = kinetic, m.potential = potential;
+    return m;
+  };
+  watch.start(at(0, 10));
+  watch.record(at(2, 8.05), {1, 100});  // 0.05 more, 2.5 % of the kinetic energy
+  CHECK(watch.warnings().empty());
+  watch.record(at(2, 8.2), {2, 200});
+  REQUIRE(watch.warnings().size() == 1);
+  CHECK_THAT(watch.warnings()[0], Catch::Contains("up to 0.2 m5/s2 per unit density, largest kinetic energy 2; first noticed at t = 2 s"));
+  Values values;
+  watch.save(values);
+  EnergyWatch again;
+  again.restore(values);
+  CHECK(again.warnings() == watch.warnings());
+}
