@@ -54,6 +54,15 @@ void permute_all(std::vector<NamedField<T>>& fields, Field<T>& spare, const Inpu
   }
 }
 
+template <class T>
+void copy_all(const std::vector<NamedField<T>>& fields, const Input<int>& from, int first, int count) {
+  for (const NamedField<T>& f : fields) {
+    if (!is_sorted(f.carry)) continue;
+    const Field<T> data = f.data;
+    Kokkos::parallel_for("cellgrid::copy", Range(0, count), KOKKOS_LAMBDA(int k) { data(first + k) = data(from(k)); });
+  }
+}
+
 }  // namespace
 
 FieldSet::FieldSet(int size) : size_(size), capacity_(size) {}
@@ -79,6 +88,13 @@ Field<double> FieldSet::real(const std::string& name) const { return find_made(r
 Field<int> FieldSet::integer(const std::string& name) const { return find_made(integers_, name); }
 
 bool FieldSet::has(const std::string& name) const { return find(reals_, name) || find(integers_, name); }
+
+void FieldSet::append_copies(const Input<int>& from, int count) {
+  const int first = size_;
+  resize(first + count);
+  copy_all(reals_, from, first, count);
+  copy_all(integers_, from, first, count);
+}
 
 void FieldSet::permute(const Input<int>& order, int size) {
   permute_all(reals_, spare_real_, order, size, capacity_);

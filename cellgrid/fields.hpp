@@ -48,6 +48,9 @@ class FieldSet {
   // Every sorted field becomes field[order[i]] for i < size.
   void permute(const Input<int>& order, int size);
 
+  // Appends count particles, copies of from[k] in every sorted field.
+  void append_copies(const Input<int>& from, int count);
+
   const std::vector<NamedField<double>>& reals() const { return reals_; }
   const std::vector<NamedField<int>>& integers() const { return integers_; }
 

@@ -40,6 +40,18 @@ void interpolate(const Line& line) {
   for (int k = n - 2; k > 0; --k) line[k] -= upper[k] * line[k + 1];
 }
 
+// Largest difference of neighbouring coefficients along each axis, combined: the slope of a B-spline is a mean of them.
+double steepest_step(const std::vector<double>& c, int nx, int ny) {
+  double along_x = 0, along_y = 0;
+  for (int j = 0; j < ny; ++j)
+    for (int i = 0; i < nx; ++i) {
+      const size_t k = static_cast<size_t>(j) * nx + i;
+      if (i + 1 < nx) along_x = std::max(along_x, std::abs(c[k + 1] - c[k]));
+      if (j + 1 < ny) along_y = std::max(along_y, std::abs(c[k + nx] - c[k]));
+    }
+  return std::hypot(along_x, along_y);
+}
+
 }  // namespace
 
 template <int D>
@@ -66,6 +78,7 @@ BedSpline<D>::BedSpline(const std::function<double(double, double)>& level, cons
   for (int i = 0; D == 2 && i < nx_; ++i) both({&values[static_cast<size_t>(i)], ny_, nx_});
   const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
   range_ = {*lowest, *highest};
+  steepest_ = steepest_step(values, nx_, ny_) * inv_spacing_;
   level_ = Field<double>(Kokkos::ViewAllocateWithoutInitializing("bed.level"), values.size());
   auto host = Kokkos::create_mirror_view(level_);
   std::copy(values.begin(), values.end(), host.data());

@@ -44,8 +44,23 @@ class BedSpline {
   BedSpline(const std::function<double(double, double)>& level, const Lattice& lattice);
 
   // V: double, or a pack for the particles of a cluster.
-  template <class V>
-  KOKKOS_INLINE_FUNCTION BedPoint<V, 1> at(const Vec<V, 1>& p) const {
+  template <class V, int Dim>
+  KOKKOS_INLINE_FUNCTION BedPoint<V, Dim> at(const Vec<V, Dim>& p) const {
+    return sample<true>(p);
+  }
+  // Level and slope alone; the curvature is left at zero.
+  template <class V, int Dim>
+  KOKKOS_INLINE_FUNCTION BedPoint<V, Dim> sloped_at(const Vec<V, Dim>& p) const {
+    return sample<false>(p);
+  }
+
+  std::array<double, 2> range() const { return range_; }  // m, lowest and highest level on the lattice
+  double steepest() const { return steepest_; }           // a bound of |grad b| on the lattice
+  int points() const { return nx_ * ny_; }
+
+ private:
+  template <bool curved, class V>
+  KOKKOS_FORCEINLINE_FUNCTION BedPoint<V, 1> sample(const Vec<V, 1>& p) const {
     const auto i = first_node((p.x - x0_) * inv_spacing_, nx_);
     const SplineWeights<V> a((p.x - x0_) * inv_spacing_ - to_real(i) - 1.0);
     BedPoint<V, 1> s;
@@ -53,15 +68,15 @@ class BedSpline {
       const V c = gather(level_.data() + k, i);
       s.b += a.w[k] * c;
       s.slope.x += a.d[k] * c;
-      s.curvature.xx += a.dd[k] * c;
+      if constexpr (curved) s.curvature.xx += a.dd[k] * c;
     }
     s.slope.x *= inv_spacing_;
-    s.curvature.xx *= inv_spacing_ * inv_spacing_;
+    if constexpr (curved) s.curvature.xx *= inv_spacing_ * inv_spacing_;
     return s;
   }
 
-  template <class V>
-  KOKKOS_INLINE_FUNCTION BedPoint<V, 2> at(const Vec<V, 2>& p) const {
+  template <bool curved, class V>
+  KOKKOS_FORCEINLINE_FUNCTION BedPoint<V, 2> sample(const Vec<V, 2>& p) const {
     const auto i = first_node((p.x - x0_) * inv_spacing_, nx_), j = first_node((p.y - y0_) * inv_spacing_, ny_);
     const SplineWeights<V> a((p.x - x0_) * inv_spacing_ - to_real(i) - 1.0), b((p.y - y0_) * inv_spacing_ - to_real(j) - 1.0);
     const auto corner = j * nx_ + i;
@@ -72,25 +87,23 @@ class BedSpline {
         const V c = gather(level_.data() + l * nx_ + k, corner);
         row += a.w[k] * c;
         row_d += a.d[k] * c;
-        row_dd += a.dd[k] * c;
+        if constexpr (curved) row_dd += a.dd[k] * c;
       }
       s.b += b.w[l] * row;
       s.slope.x += b.w[l] * row_d;
       s.slope.y += b.d[l] * row;
-      s.curvature.xx += b.w[l] * row_dd;
-      s.curvature.xy += b.d[l] * row_d;
-      s.curvature.yy += b.dd[l] * row;
+      if constexpr (curved) {
+        s.curvature.xx += b.w[l] * row_dd;
+        s.curvature.xy += b.d[l] * row_d;
+        s.curvature.yy += b.dd[l] * row;
+      }
     }
     const double per = inv_spacing_, per2 = per * per;
     s.slope = V(per) * s.slope;
-    s.curvature.xx *= per2, s.curvature.xy *= per2, s.curvature.yy *= per2;
+    if constexpr (curved) s.curvature.xx *= per2, s.curvature.xy *= per2, s.curvature.yy *= per2;
     return s;
   }
 
-  std::array<double, 2> range() const { return range_; }  // m, lowest and highest level on the lattice
-  int points() const { return nx_ * ny_; }
-
- private:
   // First of the four nodes around the coordinate s (in spacings); beyond the lattice the rim's cubic goes on.
   template <class V>
   static KOKKOS_FORCEINLINE_FUNCTION auto first_node(V s, int n) {
@@ -100,6 +113,7 @@ class BedSpline {
   double x0_ = 0, y0_ = 0, inv_spacing_ = 1;
   int nx_ = 0, ny_ = 1;
   std::array<double, 2> range_{};
+  double steepest_ = 0;
   Field<double> level_;  // spline coefficients, x fastest
 };
 

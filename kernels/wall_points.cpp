@@ -61,30 +61,40 @@ struct Chain {
 
 // Corners of less than 180 degrees: images of one wall are seen beyond the corner, and in both walls together.
 void join_corner(std::vector<WallSegment>& all, int k, int next, double step) {
-  if (turn_between(all[k], all[next]) <= 1e-9) return;
+  if (turn_between(all[k], all[next]) <= small_turn) return;
   all[k].after = all[k].see_b = all[next].before = all[next].see_a = 4 * step;
   all[k].next = next;
 }
 
-// Wall points half a spacing apart, with the corner points; `extra`: at corners of less than 180 degrees each wall goes on
-// by half a spacing more.
+double face_step(const WallSegment& s, double spacing) {
+  return s.length / std::max(1, static_cast<int>(std::lround(2 * s.length / spacing)));
+}
+
+// Wall points about half a spacing apart, with the corner points; each is worth as much as a whole half spacing but where the
+// polyline's own pieces are much shorter.
+// `extra`: at corners of less than 180 degrees each wall goes on by half a spacing more.
 void lay_face(std::vector<WallSegment>& all, const Chain& chain, double spacing, bool extra, std::vector<WallPoint>& points) {
+  const auto add = [&](WallPoint point, double length) {
+    if (length < 0.4 * spacing) point.share = length / (0.5 * spacing);
+    points.push_back(point);
+  };
   for (int k = chain.first; k < chain.first + chain.count; ++k) {
     const WallSegment& s = all[k];
-    const int next = chain.behind(k), steps = 2 * std::max(1, static_cast<int>(std::lround(s.length / spacing)));
-    const double step = s.length / steps;  // in step with a lattice
-    for (int i = 1; i < steps; ++i) points.push_back(face_point(s, i * step, 0, k));
+    const int next = chain.behind(k);
+    const double step = face_step(s, spacing);
+    for (double along = step; along < s.length - 0.5 * step; along += step) add(face_point(s, along, 0, k), step);
     if (next >= 0) {
-      points.push_back(corner_point(s.b, s, all[next], k));
+      const double beyond = face_step(all[next], spacing);
+      add(corner_point(s.b, s, all[next], k), 0.5 * (step + beyond));
       join_corner(all, k, next, step);
-      if (extra && turn_between(s, all[next]) > 1e-9) {
-        points.push_back(face_point(s, s.length + step, 0, k));
-        points.push_back(face_point(all[next], -step, 0, next));
+      if (extra && turn_between(s, all[next]) > small_turn) {
+        add(face_point(s, s.length + step, 0, k), step);
+        add(face_point(all[next], -beyond, 0, next), beyond);
       }
     } else {
-      points.push_back(face_point(s, s.length, 0, k));
+      add(face_point(s, s.length, 0, k), step);
     }
-    if (chain.ahead(k) < 0) points.push_back(face_point(s, 0, 0, k));
+    if (chain.ahead(k) < 0) add(face_point(s, 0, 0, k), step);
   }
 }
 

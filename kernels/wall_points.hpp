@@ -24,7 +24,7 @@ constexpr double free_end = 1e300;  // m
 struct WallPoint {
   double x[2];   // m
   double p[3];   // projector onto the directions that the wall reflects: xx, xy, yy
-  double share;  // 1; rows: the area that the point stands for [m2] (1-D: m)
+  double share;  // the wall that it stands for, in half spacings (about 1); rows: the area [m2] (1-D: m)
   int segment;
 };
 

@@ -54,6 +54,7 @@ WallView<D> Walls<D>::view() const {
   view.near = near_.view();
   view.segment = points_.integer("segment");
   view.segments = segments_;
+  view.deepest = depth_;
   view.share = points_.real("share");
   view.x.x = points_.real("x");
   view.projector.xx = points_.real("pxx");
@@ -72,51 +73,17 @@ void Walls<D>::find(const ClusterSet& clusters, const VecField<double, D>& x, co
 
 namespace {
 
-// A segment as a position sees it.
-struct Side {
-  double distance2;  // m2, to its nearest point; huge beyond a free end, which no position is behind
-  double inside;     // m, on the water's side of its line
-};
-
-KOKKOS_INLINE_FUNCTION Side side_of(const WallSegment& s, const Vec<double, 1>& p) {
-  const double r = p.x - s.a[0];
-  return {r * r, r * s.normal[0]};
-}
-KOKKOS_INLINE_FUNCTION Side side_of(const WallSegment& s, const Vec<double, 2>& p) {
-  const double rx = p.x - s.a[0], ry = p.y - s.a[1];
-  const double foot = rx * s.tangent[0] + ry * s.tangent[1], along = clamp(foot, 0.0, s.length);
-  const double dx = rx - along * s.tangent[0], dy = ry - along * s.tangent[1];
-  const bool beyond = (foot < 0 && s.see_a == free_end) || (foot > s.length && s.see_b == free_end);
-  return {beyond ? free_end : dx * dx + dy * dy, rx * s.normal[0] + ry * s.normal[1]};
-}
-
-template <int D>
-KOKKOS_INLINE_FUNCTION Vec<double, D> normal_of(const WallSegment& s) {
-  Vec<double, D> n;
-  n.x = s.normal[0];
-  if constexpr (D == 2) n.y = s.normal[1];
-  return n;
-}
-
-// The segment that a position is behind: its nearest one decides; at a corner, where two are equally near, the one whose line
-// is farther away. -1 if it is in the water.
+// -1 if the position is in the water. Only the segments near its cluster are looked at.
 template <int D>
 KOKKOS_INLINE_FUNCTION int segment_before(const WallView<D>& walls, int cluster, const Vec<double, D>& p, double deepest) {
-  int found = -1, last = -1;
-  Side nearest{deepest * deepest, 0};
+  int last = -1;
+  NearestSegment nearest{deepest * deepest};
   walls.near.for_each(cluster, [&](int k) {
     const int here = walls.segment(k);
-    if (here == last) return;
+    if (here != last) nearest.look_at(here, side_of(walls.segments(here), p));
     last = here;
-    const Side side = side_of(walls.segments(here), p);
-    const double tie = 1e-9 * deepest * deepest;
-    const bool same = side.distance2 < nearest.distance2 + tie && side.inside * side.inside > nearest.inside * nearest.inside;
-    if (side.distance2 < nearest.distance2 - tie || same) {
-      nearest = side;
-      found = here;
-    }
   });
-  return nearest.inside < 0 ? found : -1;
+  return nearest.behind();
 }
 
 }  // namespace

@@ -15,6 +15,49 @@
 
 namespace freshet {
 
+// A segment as a position sees it.
+struct Side {
+  double distance2;  // m2, to its nearest point
+  double inside;     // m, on the water's side of its line
+};
+
+KOKKOS_INLINE_FUNCTION Side side_of(const WallSegment& s, const Vec<double, 1>& p) {
+  const double r = p.x - s.a[0];
+  return {r * r, r * s.normal[0]};
+}
+KOKKOS_INLINE_FUNCTION Side side_of(const WallSegment& s, const Vec<double, 2>& p) {
+  const double rx = p.x - s.a[0], ry = p.y - s.a[1];
+  const double foot = rx * s.tangent[0] + ry * s.tangent[1], along = clamp(foot, 0.0, s.length);
+  const double dx = rx - along * s.tangent[0], dy = ry - along * s.tangent[1];
+  const bool beyond = (foot < 0 && s.see_a == free_end) || (foot > s.length && s.see_b == free_end);
+  return {beyond ? free_end : dx * dx + dy * dy, rx * s.normal[0] + ry * s.normal[1]};
+}
+
+template <int D>
+KOKKOS_INLINE_FUNCTION Vec<double, D> normal_of(const WallSegment& s) {
+  Vec<double, D> n;
+  n.x = s.normal[0];
+  if constexpr (D == 2) n.y = s.normal[1];
+  return n;
+}
+
+// The segment that a position is behind: its nearest one decides; at a corner, where two are equally near, the one whose line
+// is farther away.
+struct NearestSegment {
+  double deepest2;           // m2, as far as a position behind a wall is still caught
+  Side side{deepest2, 0};
+  int segment = -1;
+
+  KOKKOS_INLINE_FUNCTION void look_at(int k, const Side& here) {
+    const double tie = 1e-9 * deepest2;
+    const bool same = here.distance2 < side.distance2 + tie && here.inside * here.inside > side.inside * side.inside;
+    if (here.distance2 >= side.distance2 - tie && !same) return;
+    side = here;
+    segment = k;
+  }
+  KOKKOS_INLINE_FUNCTION int behind() const { return side.inside < 0 ? segment : -1; }
+};
+
 // An orthogonal map x -> R x + shift: a reflection in one wall, or in both walls of a corner.
 template <int D>
 struct Image {
@@ -76,18 +119,33 @@ struct WallView {
   Stretch stretch;
   VecField<double, D> x;           // m, wall points
   SymField<double, D> projector;   // P: onto the directions that the wall reflects
-  Field<double> share;             // of the virtual mass: 1, rows: the area of each point [m2] (1-D: m)
+  Field<double> share;             // of the virtual mass: about 1; rows: the area of each point [m2] (1-D: m)
   NeighbourView near;              // wall points by cluster
   Field<int> segment;              // of each wall point
   Kokkos::View<WallSegment*, Memory> segments;
+  double deepest = 0;              // m, how far behind a wall a particle is still caught
+
+  // The position, mirrored in the wall that it stands behind; again in the one behind which that puts it.
+  KOKKOS_INLINE_FUNCTION Vec<double, D> inside(Vec<double, D> p) const {
+    for (int turns = 0; turns < 4; ++turns) {
+      NearestSegment nearest{deepest * deepest};
+      for (int k = 0; k < segments.extent_int(0); ++k) nearest.look_at(k, side_of(segments(k), p));
+      if (nearest.behind() < 0) break;
+      p += (-2 * nearest.side.inside) * normal_of<D>(segments(nearest.segment));
+    }
+    return p;
+  }
 
   // m_k, to be multiplied by the point's share.
   KOKKOS_FORCEINLINE_FUNCTION Lane virtual_mass(Lane m, Lane h0_per_h, Lane rho) const {
     if (rows) return rho;
     return D == 1 ? m : m * h0_per_h;
   }
-  // Whether the virtual masses follow the particle's own depth.
-  KOKKOS_FORCEINLINE_FUNCTION bool follows_depth() const { return on && rows; }
+  // d ln m_k / d ln rho_i: how far virtual masses follow the particle's own depth.
+  KOKKOS_FORCEINLINE_FUNCTION double follows_depth() const { return !on || mirror ? 0.0 : rows ? 1.0 : (D - 1.0) / D; }
+  // How often a virtual particle at `s` times the distance of its wall point pushes. Rows push like real particles, whose own
+  // sums feel i too; the others push as the energy of i alone asks, since dx_k/dx_i = 1 - s.
+  KOKKOS_FORCEINLINE_FUNCTION double pushes(double s) const { return rows ? 2.0 : s; }
 
   // 1 in the lanes that see the images behind the segment.
   KOKKOS_FORCEINLINE_FUNCTION static Lane before(const WallSegment&, const Vec<Lane, 1>&) { return 1.0; }
@@ -107,7 +165,7 @@ struct WallView {
   // one. The image sees the particles that the segment mirrors.
   template <class See>
   KOKKOS_INLINE_FUNCTION void for_each_image(int cluster, const Vec<Lane, D>& here, const See& see) const {
-    constexpr int most = 4;  // more pieces of wall do not meet within a support
+    constexpr int most = 24;  // pieces of wall within a support: two or three, many along a curve
     int found[most], n = 0;
     near.for_each(cluster, [&](int k) {
       bool known = n == most;
@@ -118,6 +176,7 @@ struct WallView {
       const WallSegment s = segments(found[a]);
       const Image<D> image(s);
       const Lane weight = before(s, here);
+      if (!any(Lane(0.0) < weight)) continue;
       see(image, weight, s);
       for (int b = 0; b < n; ++b)
         if (found[b] == s.next) see(image.then(Image<D>(segments(s.next))), weight * before(segments(s.next), here), s);

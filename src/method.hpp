@@ -1,11 +1,12 @@
 // What the run loop needs of a method: the only virtual interface between solvers and the program.
 #pragma once
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "cellgrid/fields.hpp"
+#include "cellgrid/order.hpp"
 #include "src/scene/scene.hpp"
 
 namespace freshet {
@@ -18,6 +19,13 @@ struct Totals {
   double flux = 0;      // m3, time integral of depth x inward normal velocity along the open lines
   double flux_gross = 0;  // m3, the same with |normal velocity|
   double straddle = 0;  // m3, change since t = 0 of the part of particles' footprints that lies across the line
+};
+
+// Momentum and energy of the fluid per unit density of water.
+struct Mechanics {
+  std::array<double, 2> momentum{};  // m4/s
+  double kinetic = 0;                // m5/s2
+  double potential = 0;              // m5/s2, of the column's middle above z = 0
 };
 
 // State at a fixed point: Shepard mean over the fluid particles within 2h.
@@ -50,7 +58,9 @@ class Method {
   // kind (int, only with open boundaries: 0 fluid, > 0 boundary particle of that piece of line). 1-D has no y, v; a flat bed has no bed field.
   virtual FieldSet& fields() = 0;
   virtual const FieldSet& fields() const = 0;
+  virtual const Rows& rows() const = 0;               // the order that the particles are in, with the reach of their h
   virtual Totals totals() const = 0;
+  virtual Mechanics mechanics() const = 0;
   virtual StepReport report() const = 0;
   virtual std::vector<PointState> sample(const std::vector<Point>& points) const = 0;
   // Highest bed level [m] under a fluid particle at least min_depth deep within radius of the point; -1e300 if none.

@@ -155,7 +155,7 @@ struct SolveDensity {
       const Lane wanted = smoothing_length<D>(kh, rho);
       bounded = select((wanted < low) | (high < wanted), Lane(1.0), Lane(0.0));
       alpha = moment / (rho * double(D));
-      own = sums.walls.follows_depth() ? calibrated * s.wall.density / rho : Lane(0.0);
+      own = sums.walls.follows_depth() * calibrated * s.wall.density / rho;
       const Lane slope = rho - total + rho * (alpha - own);
       // Held by the list like by a bound: then it ends as outgrown, and the list is made again.
       const Lane held = select(smaller(high, longest_listed) < wanted, Lane(1.0), bounded);
@@ -189,12 +189,14 @@ struct SolveDensity {
     me.store(p.rho, state.rho);
     me.store(p.h, state.h);
     me.store(p.inv_h, inv_h);
-    me.store(p.pressure, 0.5 * options.gravity / (options.calibration.extent(0) > 0 ? Lane(1.0) : state.alpha));
+    // Rows push like real particles; other virtual masses enter through the energy of i, where they share in alpha.
+    const Lane alpha = sums.walls.rows ? state.alpha : state.alpha - state.own;
+    me.store(p.pressure, 0.5 * options.gravity / (options.calibration.extent(0) > 0 ? Lane(1.0) : alpha));
     me.store(p.celerity, root(options.gravity * state.rho));
     me.store(p.weight, m * per_volume * inv_h);
     const Lane closing = calibrated * (s.slope.divergence() * per_volume * inv_h + s.wall.approach);
     const Lane rate = -free * closing / (state.alpha - state.own);
-    me.store(p.growth, rate + free * options.ahead * (rate - me.load(p.rate)));
+    me.store(p.growth, options.ahead > 0 ? rate + free * options.ahead * (rate - me.load(p.rate)) : rate);
     me.store(p.rate, rate);
     if (options.gradient) me.store(p.strain, symmetric_gradient(s.slope, s.spread, free));
   }

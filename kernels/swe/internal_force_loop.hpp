@@ -73,7 +73,7 @@ struct InternalForce {
     });
   }
 
-  // Virtual particles: i's own state and slopes, the velocity mirrored; a real pair would feel both ends, so twice.
+  // Virtual particles: i's own state and slopes, the velocity mirrored.
   KOKKOS_INLINE_FUNCTION void add_wall_point(const Here<D>& i, int k, Lane mass, ForceSums<D>& sum) const {
     const Vec<Lane, D> to_wall = i.x - broadcast(at(walls.x, k)), normal_velocity = broadcast(walls.projector, k) * i.v;
     const Lane r2 = dot(to_wall, to_wall) + tiny_square, inv_r = rsqrt(r2);
@@ -83,7 +83,7 @@ struct InternalForce {
       const Lane dw = kernel.slope(s * r2 * inv_r * i.inv_h);
       const PairState<Lane> pair{s * closing, s * s * slope, s * s * slope, 2.0 * i.celerity, inv_r * (1.0 / s) / (2.0 * i.rho),
                                  s * s * r2,  2.0 * i.h,     i.rho,         i.rho,            0.0, 0.0, i.pressure, i.pressure};
-      sum.t += (2.0 * stabilise(pair).i * mass * i.weight_per_mass * dw * inv_r) * to_wall;
+      sum.t += (walls.pushes(s) * stabilise(pair).i * mass * i.weight_per_mass * dw * inv_r) * to_wall;
       const Lane inside = select(dw < Lane(0.0), Lane(1.0), Lane(0.0));
       sum.signal = larger(sum.signal, inside * larger(closing, -closing) * inv_r);
     }

@@ -13,6 +13,27 @@ KOKKOS_FORCEINLINE_FUNCTION Lane growth(Lane z) {
 KOKKOS_FORCEINLINE_FUNCTION Lanes block(int b, int n) { return {b * lanes, smaller(lanes, n - b * lanes)}; }
 Range blocks(int n) { return Range(0, (n + lanes - 1) / lanes); }
 
+// What the bed adds to a = -t, storing its level: -B (g + v.k v - t.B) / (1 + B.B); classical: -g B, without curvature.
+template <int D>
+KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, D> bed_acceleration(const Bed<D>& bed, const Lanes& me, const Particles<D>& f,
+                                                          const Vec<Lane, D>& a, Lane g) {
+  if (!bed.variational) {
+    const BedPoint<Lane, D> b = bed.spline.sloped_at(me.load(f.x));
+    me.store(bed.level, b.b);
+    return -g * b.slope;
+  }
+  const BedPoint<Lane, D> b = bed.spline.at(me.load(f.x));
+  me.store(bed.level, b.b);
+  const Lane push = (g + quadratic(b.curvature, me.load(f.v_pred)) + dot(a, b.slope)) / (1.0 + dot(b.slope, b.slope));
+  return -push * b.slope;
+}
+
+// Time in which a particle moves by less than 2 h, from its speed and its acceleration: v t + a t^2/2 <= 2 h.
+template <int D>
+KOKKOS_FORCEINLINE_FUNCTION Lane free_path(Lane h, const Vec<Lane, D>& v, const Vec<Lane, D>& a) {
+  return 2.0 * h / (root(dot(v, v)) + root(h * root(dot(a, a))) + 1e-100);
+}
+
 }  // namespace
 
 template <int D>
@@ -47,36 +68,30 @@ double accelerate_and_kick(const Particles<D>& p, const MotionOptions<D>& option
   const bool with_bed = options.bed.has_value(), friction = options.friction.has_value();
   const std::optional<Bed<D>> bed = options.bed;
   const std::optional<Friction> roughness = options.friction;
-  const bool variational = with_bed && bed->variational;
   const Lane g = options.gravity;
   const Field<double> drag_field = options.drag;
   const ImposedLanes imposed = options.imposed;
+  const bool walled = options.walled;
   double crossing = 0;
   Kokkos::parallel_reduce(
       "swe::accelerate", blocks(n),
       KOKKOS_LAMBDA(int block_index, double& least) {
         const Lanes me = block(block_index, n);
-        least = smaller(least, smallest(me.load(f.h) / (me.load(f.celerity) + me.load(f.signal))));
+        const Lane h = me.load(f.h);
+        least = smaller(least, smallest(h / (me.load(f.celerity) + me.load(f.signal))));
         Vec<Lane, D> a = Lane(-1.0) * me.load(f.t);
-        if (with_bed) {
-          const BedPoint<Lane, D> b = bed->spline.at(me.load(f.x));
-          me.store(bed->level, b.b);
-          // a = -t - B (g + v.k v - t.B) / (1 + B.B); without the curvature terms -t - g B.
-          Lane push = g;
-          if (variational)
-            push = (g + quadratic(b.curvature, me.load(f.v_pred)) + dot(a, b.slope)) / (1.0 + dot(b.slope, b.slope));
-          a += -push * b.slope;
-        }
+        if (with_bed) a += bed_acceleration<D>(*bed, me, f, a, g);
         const Lane free = 1.0 - imposed(me);
         a = free * a;
         me.store(f.a, a);
         Vec<Lane, D> v = me.load(f.v) + Lane(kick_dt) * a;
         if (friction) {
-          const Lane drag = roughness->drag(me.load(f.rho));
+          const Lane drag = roughness->drag(me.load(f.rho), me.load(f.x));
           me.store(drag_field, drag);
           v = slowed<D>(v, free * drag, Lane(kick_dt));
         }
         me.store(f.v, v);
+        if (walled) least = smaller(least, smallest(free_path(h, v, a)));
       },
       Kokkos::Min<double>(crossing));
   return crossing;

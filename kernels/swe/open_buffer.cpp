@@ -166,7 +166,11 @@ Crossed OpenBuffer<D>::convert(FieldSet& particles, const Particles<D>& p, const
             put(v, i, at(v, i) + (-2 * smaller(dot(at(v, i), at_line.line.inward), 0.0)) * at_line.line.inward);
           return in_out;
         }
-        if (!leaves && inside >= 0 && at_line.on_line(r)) {
+        if (!leaves && inside >= 0 && at_line.on_line(r)) {  // enters with the depth on the line, not that of where it was last
+          const double rho = summed * larger(state.depth, exterior.least);
+          f.m(i) *= rho / f.rho(i);
+          f.kh(i) *= rho / f.rho(i);
+          f.rho(i) = rho;
           kind(i) = 0;
           in_out[0] = f.m(i);
           return in_out;

@@ -14,15 +14,6 @@
 namespace freshet {
 namespace {
 
-// A column title, quoted where the gauge's name would break the row.
-std::string title(const std::string& name, const std::string& rest) {
-  const std::string plain = name + rest;
-  if (plain.find_first_of(",\"\n") == std::string::npos) return plain;
-  std::string quoted = "\"";
-  for (const char c : plain) quoted += c == '"' ? "\"\"" : std::string(1, c == '\n' ? ' ' : c);
-  return quoted + "\"";
-}
-
 GaugeRow parse(const std::string& line) {
   GaugeRow row;
   const char* at = line.c_str();
@@ -49,7 +40,7 @@ void GaugeFile::create(const std::vector<Gauge>& gauges) {
   file_.open(path_, std::ios::binary | std::ios::trunc);
   std::string header = "t [s]";
   for (const auto& gauge : gauges)
-    header += ',' + title(gauge.name, " elevation [m]") + ',' + title(gauge.name, " dry");
+    header += ',' + csv_word(gauge.name + " elevation [m]") + ',' + csv_word(gauge.name + " dry");
   write(header);
 }
 
@@ -93,7 +84,7 @@ void write_measured(const std::string& path, const std::vector<Gauge>& gauges) {
   std::string text = "t [s]";
   for (std::size_t g = 0; g < measured.size(); ++g) {
     const Series& series = *measured[g]->measured;
-    text += ',' + title(measured[g]->name, " [m]");
+    text += ',' + csv_word(measured[g]->name + " [m]");
     for (std::size_t k = 0; k < series.t.size(); ++k) {
       auto& row = rows[series.t[k]];
       row.resize(measured.size());

@@ -18,6 +18,21 @@ void write(JsonWriter& out, const MassBalance& mass) {
       .end();
 }
 
+void write(JsonWriter& out, const EnergyBalance& energy) {
+  out.begin("energy")
+      .value("kinetic_start_m5_s2", energy.kinetic_start)
+      .value("potential_start_m5_s2", energy.potential_start)
+      .value("kinetic_end_m5_s2", energy.kinetic_end)
+      .value("potential_end_m5_s2", energy.potential_end)
+      .end();
+  out.begin("momentum")
+      .value("x_start_m4_s", energy.momentum_start.first)
+      .value("y_start_m4_s", energy.momentum_start.second)
+      .value("x_end_m4_s", energy.momentum_end.first)
+      .value("y_end_m4_s", energy.momentum_end.second)
+      .end();
+}
+
 void write(JsonWriter& out, const GaugeResult& gauge) {
   out.begin(gauge.name)
       .value("rmse", gauge.rmse)
@@ -35,13 +50,35 @@ void write(JsonWriter& out, const GaugeResult& gauge) {
       .end();
 }
 
+void write(JsonWriter& out, const ProfileResult& profile) {
+  out.begin(profile.name)
+      .value("time", profile.time)
+      .value("rmse", profile.rmse)
+      .value("max_abs_error", profile.max_abs_error)
+      .value("measured_range", profile.measured_range)
+      .value("points", profile.points)
+      .end();
+}
+
 void write(JsonWriter& out, const ErrorNorms& errors) {
-  out.begin("errors")
-      .value("depth_l1_rel", errors.depth_l1_rel)
-      .value("depth_l2_rel", errors.depth_l2_rel)
-      .value("depth_linf", errors.depth_linf)
-      .value("velocity_l2", errors.velocity_l2)
-      .value("grid_l2_rel", errors.grid_l2_rel)
+  for (const NormName& norm : norm_names) out.value(norm.key, errors.*norm.value);
+}
+
+void write(JsonWriter& out, const std::vector<ErrorsAt>& errors_at) {
+  out.array("errors_at");
+  for (const ErrorsAt& at : errors_at) {
+    write(out.begin().value("t", at.t), at.errors);
+    out.end();
+  }
+  out.end_array();
+}
+
+void write(JsonWriter& out, const Steadiness& steady) {
+  out.begin("steady")
+      .value("max_speed_rel", steady.max_speed_rel)
+      .value("end_speed_rel", steady.end_speed_rel)
+      .value("rate", steady.rate)
+      .value("thesis_ls", steady.thesis_ls)
       .end();
 }
 
@@ -80,6 +117,14 @@ void print_run_ups(std::FILE* out, const std::vector<RunUpResult>& run_ups) {
   }
 }
 
+void print_profiles(std::FILE* out, const std::vector<ProfileResult>& profiles) {
+  std::fprintf(out, "\n%-12s %8s %8s %8s %12s %7s\n", "profile", "at [s]", "rmse", "max", "range [mm]", "points");
+  for (const auto& p : profiles)
+    std::fprintf(out, "%-12s %8s %8s %8s %12s %7d\n", p.name.c_str(), cell(p.time, 1, "%.2f").c_str(),
+                 cell(p.rmse, 1e-3, "%.2f").c_str(), cell(p.max_abs_error, 1e-3, "%.2f").c_str(),
+                 cell(p.measured_range, 1e-3, "%.2f").c_str(), p.points);
+}
+
 void print_errors(std::FILE* out, const ErrorNorms& e) {
   std::fprintf(
       out,
@@ -87,6 +132,21 @@ void print_errors(std::FILE* out, const ErrorNorms& e) {
       cell(e.depth_l2_rel, 1, "%.3e").c_str(), cell(e.depth_l1_rel, 1, "%.3e").c_str(),
       cell(e.grid_l2_rel, 1, "%.3e").c_str(), cell(e.depth_linf, 1, "%.3e").c_str(),
       cell(e.velocity_l2, 1, "%.3e").c_str());
+}
+
+void print_errors_at(std::FILE* out, const std::vector<ErrorsAt>& errors_at) {
+  std::fprintf(out, "\n%10s %12s %12s %12s %12s\n%10s %12s %12s %12s %12s\n", "time", "depth l2", "(2.58)", "vx (2.59)",
+               "vy (2.59)", "[s]", "", "", "", "");
+  for (const auto& [t, e] : errors_at)
+    std::fprintf(out, "%10.4g %12s %12s %12s %12s\n", t, cell(e.depth_l2_rel, 1, "%.3e").c_str(),
+                 cell(e.depth_l2_mean_rel, 1, "%.3e").c_str(), cell(e.velocity_l2_x, 1, "%.3e").c_str(),
+                 cell(e.velocity_l2_y, 1, "%.3e").c_str());
+}
+
+void print_steadiness(std::FILE* out, const Steadiness& s) {
+  std::fprintf(out, "largest speed %s of sqrt(g d_max), at the end %s; depths change by %s per second (rms), L_s of the thesis %s\n",
+               cell(s.max_speed_rel, 1, "%.3e").c_str(), cell(s.end_speed_rel, 1, "%.3e").c_str(), cell(s.rate, 1, "%.2e").c_str(),
+               cell(s.thesis_ls, 1, "%.2e").c_str());
 }
 
 }  // namespace
@@ -99,19 +159,35 @@ std::string json(const Summary& s) {
   out.value("steps", s.steps).value("list_rebuilds", s.list_rebuilds).value("simulated_s", s.simulated);
   out.value("wall_s", s.wall).value("particle_steps_per_s", s.particle_steps_per_s);
   write(out, s.mass);
-  out.begin("gauges");
+  write(out, s.energy);
+  out.array("warnings");
+  for (const auto& warning : s.warnings) out.value("", warning);
+  out.end_array().begin("gauges");
   for (const auto& gauge : s.gauges) write(out, gauge);
   out.end().begin("runup");
   for (const auto& run_up : s.run_ups) out.value(run_up.name, run_up.highest);
   out.end();
-  if (s.compared) write(out, s.errors);
+  if (!s.profiles.empty()) {
+    out.begin("profiles");
+    for (const auto& profile : s.profiles) write(out, profile);
+    out.end();
+  }
+  if (s.compared) {
+    write(out.begin("errors"), s.errors);
+    out.end();
+  }
+  if (!s.errors_at.empty()) write(out, s.errors_at);
+  if (s.watched) write(out, s.steady);
   return out.end().text() + "\n";
 }
 
 void print_tables(std::FILE* out, const Summary& s) {
   if (!s.gauges.empty()) print_gauges(out, s.gauges);
   if (!s.run_ups.empty()) print_run_ups(out, s.run_ups);
+  if (!s.profiles.empty()) print_profiles(out, s.profiles);
   if (s.compared) print_errors(out, s.errors);
+  if (!s.errors_at.empty()) print_errors_at(out, s.errors_at);
+  if (s.watched) print_steadiness(out, s.steady);
   std::fprintf(
       out,
       "\n%ld steps, %d particles, %.2f s of water in %.2f s: %.2f M particle-steps/s on %d thread%s (%s)\n",
@@ -120,6 +196,7 @@ void print_tables(std::FILE* out, const Summary& s) {
   std::fprintf(out, "mass: relative error %.1e", s.mass.relative_error);
   if (std::isfinite(s.mass.flux_error)) std::fprintf(out, ", flux error %.2e", s.mass.flux_error);
   std::fputc('\n', out);
+  for (const auto& warning : s.warnings) std::fprintf(out, "warning: %s\n", warning.c_str());
 }
 
 }  // namespace freshet

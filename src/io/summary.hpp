@@ -27,10 +27,44 @@ struct RunUpResult {
   std::pair<double, double> measured{unknown, unknown};  // m, lowest and highest
 };
 
+struct ProfileResult {
+  std::string name;
+  double time = unknown;                               // s
+  double rmse = unknown, max_abs_error = unknown;      // m, over the measured points on the line
+  double measured_range = unknown;                     // m, highest less lowest of them
+  int points = 0;
+};
+
 struct ErrorNorms {
   double depth_l1_rel = unknown, depth_l2_rel = unknown, grid_l2_rel = unknown;
-  double depth_linf = unknown;   // m
-  double velocity_l2 = unknown;  // m/s
+  double depth_linf = unknown;         // m
+  double velocity_l2 = unknown;        // m/s
+  double depth_l2_mean_rel = unknown;  // thesis (2.58): rms of (d - d_e) / d_e
+  double velocity_l2_x = unknown, velocity_l2_y = unknown;  // thesis (2.59): rms of (v_k - v_k,e) / sqrt(g d_e)
+};
+
+// Every norm under its name in summary.json.
+struct NormName {
+  const char* key;
+  double ErrorNorms::*value;
+};
+inline constexpr NormName norm_names[] = {
+    {"depth_l1_rel", &ErrorNorms::depth_l1_rel},   {"depth_l2_rel", &ErrorNorms::depth_l2_rel},
+    {"depth_linf", &ErrorNorms::depth_linf},       {"velocity_l2", &ErrorNorms::velocity_l2},
+    {"grid_l2_rel", &ErrorNorms::grid_l2_rel},     {"depth_l2_mean_rel", &ErrorNorms::depth_l2_mean_rel},
+    {"velocity_l2_x", &ErrorNorms::velocity_l2_x}, {"velocity_l2_y", &ErrorNorms::velocity_l2_y}};
+
+struct ErrorsAt {
+  double t = 0;  // s
+  ErrorNorms errors;
+};
+
+// How still a steady flow stands.
+struct Steadiness {
+  double max_speed_rel = unknown;   // largest speed of any particle at any step / sqrt(g d_max), d_max of the start
+  double end_speed_rel = unknown;   // the same at the end alone
+  double rate = unknown;            // 1/s, rms over the particles of the relative change of depth at the end
+  double thesis_ls = unknown;       // the same as thesis (1.12), a sum over N particles of one step: sqrt(N) rate dt
 };
 
 struct MassBalance {
@@ -38,6 +72,12 @@ struct MassBalance {
   double relative_error = unknown;  // |final - initial - inflow + outflow| / initial
   double flux_error =
       unknown;  // |inflow - outflow - straddle - flux| / gross flux; unknown without open boundaries
+};
+
+// Per unit density of water; see Mechanics in src/method.hpp.
+struct EnergyBalance {
+  double kinetic_start = unknown, potential_start = unknown, kinetic_end = unknown, potential_end = unknown;  // m5/s2
+  std::pair<double, double> momentum_start{unknown, unknown}, momentum_end{unknown, unknown};                 // m4/s
 };
 
 struct Summary {
@@ -48,10 +88,16 @@ struct Summary {
   double simulated = 0, wall = 0;  // s
   double particle_steps_per_s = 0;
   MassBalance mass;
+  EnergyBalance energy;
+  std::vector<std::string> warnings;  // what the run noticed about itself
   std::vector<GaugeResult> gauges;
   std::vector<RunUpResult> run_ups;
+  std::vector<ProfileResult> profiles;
   bool compared = false;  // the scene names an exact solution
   ErrorNorms errors;
+  std::vector<ErrorsAt> errors_at;  // at the times that [compare] names
+  bool watched = false;             // [compare] steady
+  Steadiness steady;
 };
 
 std::string json(const Summary& summary);

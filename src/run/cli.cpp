@@ -27,7 +27,7 @@ used (one for scenes of fewer than 2000 cells) unless --threads says otherwise. 
 examples:
   freshet run okushiri
   freshet run thacker water.spacing=25 --out out/thacker25 --threads 2
-  freshet check cases/okushiri.toml manning=0.025
+  freshet check cases/okushiri.toml bed.manning=0.025
   freshet resume out/okushiri
 
 exit codes: 0 done, 1 internal error, 2 scene or command line, 3 data file, 4 diverged, 5 input or output, 130 stopped

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 const std::vector<std::string> result_files{"particles.h5part", "gauges.csv", "measured.csv",
-                                            "summary.json",     "state.h5",   "diverged.h5"};
+                                            "summary.json",     "state.h5",   "diverged.h5",  "rasters"};
 
 std::string inside(const std::string& directory, const std::string& name) {
   return (fs::path(directory) / name).string();
@@ -43,7 +43,7 @@ void prepare_directory(const std::string& directory, bool overwrite) {
                      (fs::exists(inside(directory, "state.h5")) ? ", 'resume' goes on with them" : ""));
   }
   make_directory(directory);
-  for (const auto& name : held) fs::remove(inside(directory, name));
+  for (const auto& name : held) fs::remove_all(inside(directory, name));
 }
 
 std::string shell_word(const std::string& path) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 
 #include "cellgrid/runtime.hpp"
 #include "src/errors.hpp"
@@ -21,6 +22,25 @@ std::string inside(const std::string& directory, const char* name) {
 
 bool finished(const Clock& clock, const Scene& scene) { return clock.t >= scene.end_time; }
 
+// One row for each: the time, then the norms in the order of norm_names.
+std::vector<double> flat(const std::vector<ErrorsAt>& rows) {
+  std::vector<double> numbers;
+  for (const ErrorsAt& row : rows) {
+    numbers.push_back(row.t);
+    for (const NormName& norm : norm_names) numbers.push_back(row.errors.*norm.value);
+  }
+  return numbers;
+}
+
+std::vector<ErrorsAt> errors_from(const std::vector<double>& numbers) {
+  std::vector<ErrorsAt> rows;
+  for (std::size_t k = 0; k < numbers.size(); k += 1 + std::size(norm_names)) {
+    rows.push_back({numbers[k], {}});
+    for (std::size_t n = 0; n < std::size(norm_names); ++n) rows.back().errors.*norm_names[n].value = numbers[k + 1 + n];
+  }
+  return rows;
+}
+
 }  // namespace
 
 Driver::Driver(const Scene& scene, Method& method, RunOptions options)
@@ -31,15 +51,22 @@ Driver::Driver(const Scene& scene, Method& method, RunOptions options)
       monitor_(scene),
       gauges_(scene, inside(options_.directory, "gauges.csv")),
       run_ups_(scene.run_ups),
+      profiles_(scene, inside(options_.directory, "profiles.csv")),
+      steady_(scene),
+      rasters_(scene, options_.directory),
       particles_(inside(options_.directory, "particles.h5part")),
       progress_(options_.progress, options_.terminal, 0, scene.end_time) {}
 
 void Driver::begin() {
   initial_particles_ = fluid_count(method_.fields());
+  initial_mechanics_ = method_.mechanics();
+  energy_watch_.start(initial_mechanics_);
   monitor_.start(method_.totals().mass);
   particles_.create(scene_.text, build::version);
   gauges_.begin(method_);
   run_ups_.record(method_);
+  steady_.begin(method_);
+  rasters_.begin(method_);
 }
 
 bool Driver::run() {
@@ -48,10 +75,11 @@ bool Driver::run() {
     while (!finished(clock_, scene_)) {
       if (options_.stop && *options_.stop) break;
       step();
-      monitor_.check(method_, clock_);
-      if (clock_.step % 100 == 0) monitor_.check_all(method_, clock_);
+      check();
       gauges_.record(method_, clock_.t);
       run_ups_.record(method_);
+      steady_.record(method_);
+      rasters_.record(method_, clock_.t);
       fire_events();
       if (progress_.due(clock_.t)) show_progress();
     }
@@ -59,6 +87,7 @@ bool Driver::run() {
   } catch (const Diverged& why) {
     give_up(why);
   }
+  rasters_.finish();
   write_state("state.h5");
   progress_.end_line();
   return finished(clock_, scene_);
@@ -67,22 +96,35 @@ bool Driver::run() {
 void Driver::step() {
   const double stable = method_.stable_dt();
   monitor_.check_dt(stable, clock_);
-  const Stride stride = events_.shorten(clock_, stable);
+  const Stride stride = events_.shorten(clock_, stable, rasters_.times().next());
   gauges_.watch(method_, clock_.t, stride.until);
   method_.step(clock_.t, stride.dt);
   clock_ = {stride.until, clock_.step + 1};
   dt_ = stride.dt;
+  strain_.record(method_.report(), clock_);
   progress_.count(method_.fields().size());
+}
+
+void Driver::check() {
+  monitor_.check(method_, clock_);
+  if (clock_.step % 100 != 0) return;
+  monitor_.check_all(method_, clock_);
+  if (scene_.boundaries.empty()) energy_watch_.record(method_.mechanics(), clock_);
 }
 
 void Driver::fire_events() {
   for (; events_.comparisons.due(clock_.t); events_.comparisons.advance()) {
     l1_samples_.push_back(depth_l1(scene_, fluid_on_host(method_.fields()), clock_.t));
   }
+  for (; events_.profiles.due(clock_.t); events_.profiles.advance()) profiles_.record(method_, clock_.t);
+  for (; events_.snapshots.due(clock_.t); events_.snapshots.advance()) {
+    errors_at_.push_back({clock_.t, errors()});
+  }
   if (events_.outputs.due(clock_.t)) {
     monitor_.check_all(method_, clock_);
     write_particles();
   }
+  if (rasters_.times().due(clock_.t)) rasters_.write(method_, clock_.t);
   const bool periodic = scene_.output.checkpoint_every > 0 && !finished(clock_, scene_);
   if (periodic && progress_.elapsed() - last_checkpoint_ >= scene_.output.checkpoint_every)
     write_state("state.h5");
@@ -125,12 +167,22 @@ Values Driver::run_values() const {
   Values values;
   values["clock"] = {clock_.t, static_cast<double>(clock_.step)};
   values["events_done"] = {static_cast<double>(events_.outputs.done()),
-                           static_cast<double>(events_.comparisons.done())};
+                           static_cast<double>(events_.comparisons.done()),
+                           static_cast<double>(events_.snapshots.done())};
   values["initial"] = {monitor_.initial_mass(), static_cast<double>(initial_particles_)};
+  const Mechanics& m = initial_mechanics_;
+  values["mechanics"] = {m.momentum[0], m.momentum[1], m.kinetic, m.potential};
   values["depth_l1_rel"] = l1_samples_;
+  values["errors_at"] = flat(errors_at_);
+  values["dt"] = {dt_};
   values["effort"] = {wall(), earlier_particle_steps_ + progress_.particle_steps()};
+  strain_.save(values);
+  energy_watch_.save(values);
   gauges_.save(values);
   run_ups_.save(values);
+  profiles_.save(values);
+  steady_.save(values);
+  rasters_.save(values);
   return values;
 }
 
@@ -139,13 +191,24 @@ void Driver::restore(const Checkpoint& checkpoint) {
   clock_ = {run.at("clock").at(0), std::lround(run.at("clock").at(1))};
   events_.outputs.skip_to(static_cast<std::size_t>(run.at("events_done").at(0)));
   events_.comparisons.skip_to(static_cast<std::size_t>(run.at("events_done").at(1)));
+  events_.snapshots.skip_to(static_cast<std::size_t>(run.at("events_done").at(2)));
   monitor_.start(run.at("initial").at(0));
   initial_particles_ = static_cast<int>(run.at("initial").at(1));
+  const std::vector<double>& m = run.at("mechanics");
+  initial_mechanics_ = {{m.at(0), m.at(1)}, m.at(2), m.at(3)};
   l1_samples_ = run.at("depth_l1_rel");
+  errors_at_ = errors_from(run.at("errors_at"));
+  dt_ = run.at("dt").at(0);
   earlier_wall_ = run.at("effort").at(0);
   earlier_particle_steps_ = run.at("effort").at(1);
+  strain_.restore(run);
+  energy_watch_.restore(run);
   gauges_.restore(run);
   run_ups_.restore(run);
+  profiles_.restore(run);
+  while (events_.profiles.due(clock_.t)) events_.profiles.advance();
+  steady_.restore(run);
+  rasters_.restore(run);
   if (std::filesystem::exists(inside(options_.directory, "particles.h5part"))) {
     particles_.truncate(static_cast<int>(events_.outputs.done()));
   } else {
@@ -165,6 +228,18 @@ MassBalance Driver::mass_balance() const {
   const double unaccounted = std::abs(totals.inflow - totals.outflow - totals.straddle - totals.flux);
   if (!scene_.boundaries.empty()) mass.flux_error = unaccounted / std::max(totals.flux_gross, 1e-300);
   return mass;
+}
+
+EnergyBalance Driver::energy_balance() const {
+  const Mechanics &start = initial_mechanics_, end = method_.mechanics();
+  return {start.kinetic, start.potential, end.kinetic, end.potential,
+          {start.momentum[0], start.momentum[1]}, {end.momentum[0], end.momentum[1]}};
+}
+
+std::vector<std::string> Driver::warnings() const {
+  std::vector<std::string> all = strain_.warnings(method_.report());
+  for (const auto& line : energy_watch_.warnings()) all.push_back(line);
+  return all;
 }
 
 std::vector<GaugeResult> Driver::gauge_results() const {
@@ -188,10 +263,8 @@ std::vector<RunUpResult> Driver::run_up_results() const {
 }
 
 ErrorNorms Driver::errors() const {
-  const Fluid fluid = fluid_on_host(method_.fields());
-  ErrorNorms errors = particle_errors(scene_, fluid, clock_.t);
-  errors.depth_l1_rel = median(l1_samples_);
-  errors.grid_l2_rel = grid_l2(scene_, fluid, clock_.t);
+  ErrorNorms errors = error_norms(scene_, fluid_on_host(method_.fields()), clock_.t);
+  errors.grid_l2_rel = grid_l2(scene_, method_, clock_.t);
   return errors;
 }
 
@@ -210,10 +283,17 @@ Summary Driver::summary() const {
   s.wall = wall();
   s.particle_steps_per_s = (earlier_particle_steps_ + progress_.particle_steps()) / std::max(s.wall, 1e-9);
   s.mass = mass_balance();
+  s.energy = energy_balance();
+  s.warnings = warnings();
   s.gauges = gauge_results();
   s.run_ups = run_up_results();
+  s.profiles = profiles_.results();
   s.compared = scene_.compare.exact != nullptr;
   if (s.compared) s.errors = errors();
+  if (s.compared) s.errors.depth_l1_rel = median(l1_samples_);
+  s.errors_at = errors_at_;
+  s.watched = steady_.wanted();
+  if (s.watched) s.steady = steady_.result(method_, dt_);
   return s;
 }
 

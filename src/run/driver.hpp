@@ -9,8 +9,12 @@
 #include "src/io/h5part.hpp"
 #include "src/io/summary.hpp"
 #include "src/run/monitor.hpp"
+#include "src/run/profiles.hpp"
 #include "src/run/progress.hpp"
+#include "src/run/rasters.hpp"
 #include "src/run/stations.hpp"
+#include "src/run/steady.hpp"
+#include "src/run/strain.hpp"
 
 namespace freshet {
 
@@ -33,9 +37,11 @@ class Driver {
   bool run();
   const Clock& clock() const { return clock_; }
   Summary summary() const;
+  const std::vector<GaugeRow>& gauge_rows() const { return gauges_.rows(); }
 
  private:
   void step();
+  void check();
   void fire_events();
   void write_particles();
   void write_state(const std::string& name);
@@ -43,6 +49,8 @@ class Driver {
   void show_progress();
   Values run_values() const;
   MassBalance mass_balance() const;
+  EnergyBalance energy_balance() const;
+  std::vector<std::string> warnings() const;
   std::vector<GaugeResult> gauge_results() const;
   std::vector<RunUpResult> run_up_results() const;
   ErrorNorms errors() const;
@@ -56,11 +64,18 @@ class Driver {
   Monitor monitor_;
   GaugeRecorder gauges_;
   RunUpRecorder run_ups_;
+  ProfileRecorder profiles_;
+  SteadyRecorder steady_;
+  RasterRecorder rasters_;
+  Strain strain_;
+  EnergyWatch energy_watch_;
   ParticleFile particles_;
   Progress progress_;
   std::vector<double> l1_samples_;  // depth_l1_rel at the comparison times
+  std::vector<ErrorsAt> errors_at_;
   double dt_ = 0;                   // s, of the last step
   int initial_particles_ = 0;
+  Mechanics initial_mechanics_;
   double earlier_wall_ = 0, earlier_particle_steps_ = 0;  // of the processes before a resume
   double last_checkpoint_ = 0;                            // s, progress_.elapsed() then
 };

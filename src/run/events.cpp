@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "src/run/profiles.hpp"
+
 namespace freshet {
 
 double Timetable::next() const {
@@ -32,10 +34,12 @@ std::vector<double> comparison_times(const Compare& compare, double end) {
 Events::Events(const Scene& scene)
     : outputs(regular_times(scene.output.every, scene.end_time)),
       comparisons(comparison_times(scene.compare, scene.end_time)),
+      profiles(profile_times(scene)),
+      snapshots(scene.compare.times),
       end(scene.end_time) {}
 
-Stride Events::shorten(const Clock& clock, double stable_dt) const {
-  const double event = std::min({outputs.next(), comparisons.next(), end});
+Stride Events::shorten(const Clock& clock, double stable_dt, double next) const {
+  const double event = std::min({outputs.next(), comparisons.next(), profiles.next(), snapshots.next(), next, end});
   const double remaining = event - clock.t;
   const double parts = std::max(1.0, std::ceil(remaining / stable_dt));
   const double dt = remaining / parts;

@@ -1,6 +1,7 @@
 // The clock and the times at which something is written: steps end exactly on output and comparison times.
 #pragma once
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "src/scene/scene.hpp"
@@ -40,13 +41,14 @@ struct Stride {
 };
 
 struct Events {
-  Timetable outputs, comparisons;
+  Timetable outputs, comparisons, profiles, snapshots;  // snapshots: Compare::times
   double end;  // s
   explicit Events(const Scene& scene);
 
   // The stable step, made shorter so that the time left to the next event is split into equal steps: no tiny
   // one remains.
-  Stride shorten(const Clock& clock, double stable_dt) const;
+  // next: of the other times that steps end on.
+  Stride shorten(const Clock& clock, double stable_dt, double next = std::numeric_limits<double>::infinity()) const;
 };
 
 }  // namespace freshet

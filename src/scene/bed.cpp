@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "src/scene/files.hpp"
+#include "src/scene/grid_file.hpp"
 #include "src/scene/points.hpp"
-#include "src/scene/raster.hpp"
 #include "src/scene/sections.hpp"
 #include "src/scene/shapes.hpp"
 
@@ -31,9 +31,7 @@ struct FileBed {
 
 FileOptions read_file_options(Table& bed) {
   FileOptions options;
-  options.registration =
-      bed.choice<Registration>("registration", {{"node", Registration::node}, {"cell", Registration::cell}})
-          .optional();
+  options.registration = read_registration(bed);
   const double sign = bed.choice<double>("vertical", {{"up", 1.0}, {"down", -1.0}}).otherwise(1.0);
   options.factor = sign * bed.number("scale").otherwise(1);
   options.offset = bed.number("offset", "m").otherwise(0);
@@ -103,15 +101,7 @@ FileBed from_scatter(std::vector<BedPoint> points, const FileOptions& options, c
 FileBed load_bed(const std::string& path, const FileOptions& options, const Domain& domain, Table& section) {
   const std::string text = read_text(path), name = file_name(path);
   if (looks_like_ascii_grid(text)) {
-    AsciiGrid grid = read_ascii_grid(path, text, options.registration);
-    if (grid.corner && !options.registration && !section.has("registration")) {
-      section.context().diagnostics.error(
-          section.place_of("file"),
-          "'" + name + "' has an xllcorner header: say where its values lie, 'bed.registration' is missing",
-          "registration = \"cell\": in the middle of the cells (GIS rasters); \"node\": on the corner "
-          "itself");
-    }
-    return from_raster(std::move(grid.raster), options, domain, name);
+    return from_raster(load_grid(section, path, text, options.registration), options, domain, name);
   }
   std::vector<BedPoint> points = read_points(path, text);
   if (auto lattice = as_lattice(points)) {
@@ -219,7 +209,7 @@ void read_bed(Table& section, Scene& scene) {
   }
   scene.bed.spacing = section.number("spacing", "m").positive().otherwise(spacing);
   read_filter(section, source == "file", scene);
-  scene.manning = section.number("manning", "s/m^(1/3)").at_least(0).optional();
+  read_manning(section, scene);
   if (scene.bed.elevation && scene.bed.spacing > 0) find_range(section, source, scene);
 }
 

@@ -1,8 +1,11 @@
 // [compare]: the exact solution and how the errors against it are measured.
 #include <cmath>
 
+#include "src/reference/beach.hpp"
 #include "src/reference/bump.hpp"
 #include "src/reference/exact.hpp"
+#include "src/reference/radial.hpp"
+#include "src/reference/ritter.hpp"
 #include "src/scene/sections.hpp"
 
 namespace freshet::input {
@@ -14,6 +17,7 @@ struct Solution {
   double shock_speed = 0;  // m/s, 0 = no shock
   double shock_cell_ratio =
       1;  // depth behind over depth ahead: particles of equal mass lie so much wider ahead
+  bool steady = false;
 };
 
 Solution read_stoker(Table& table, const Scene& scene) {
@@ -28,6 +32,12 @@ Solution read_stoker(Table& table, const Scene& scene) {
   const double speed = right < left ? stoker_middle(left, right, scene.gravity).shock : 0;
   return {stoker(left, right, dam, scene.gravity),
           shown(left) + " m | " + shown(right) + " m, dam at " + shown(dam) + " m", speed, left / right};
+}
+
+Solution read_ritter(Table& table, const Scene& scene) {
+  const double left = table.number("left", "m").positive().required(1);
+  const double dam = table.number("dam", "m").required();
+  return {ritter(left, dam, scene.gravity), shown(left) + " m | dry, dam at " + shown(dam) + " m"};
 }
 
 Bowl read_bowl(Table& table, const Scene& scene) {
@@ -60,7 +70,37 @@ Solution read_radial(Table& table, const Scene& scene) {
 
 Solution read_rest(Table& table, const Scene& scene) {
   const double level = table.number("level", "m").required();
-  return {still_water(level, scene.bed.elevation), "level " + shown(level) + " m"};
+  return {still_water(level, scene.bed.elevation), "level " + shown(level) + " m", 0, 1, true};
+}
+
+Solution read_radial_dam(Table& table, const Scene& scene) {
+  RadialDam dam{};
+  dam.inner = table.number("inner", "m").positive().required(2);
+  dam.outer = table.number("outer", "m")
+                  .at_least(0)
+                  .check([&dam](double depth) { return depth < dam.inner; }, "below 'inner' (" + shown(dam.inner) + ")",
+                         "the deep water of this solution is inside")
+                  .required(1);
+  dam.radius = table.number("radius", "m").positive().required(1);
+  const Point centre = table.point("centre", scene.domain.dimension).otherwise({0, 0});
+  dam.x0 = centre[0];
+  dam.y0 = centre[1];
+  if (scene.bed.elevation) table.error("type", "the radial dam break has a flat bed", "leave out [bed]");
+  if (scene.domain.dimension == 1) table.error("type", "the radial dam break needs a 2-D domain");
+  return {radial_dam_break(dam, scene.gravity),
+          shown(dam.inner) + " m within " + shown(dam.radius) + " m, " + shown(dam.outer) + " m outside"};
+}
+
+Solution read_beach(Table& table, const Scene& scene) {
+  Beach beach{};
+  beach.slope = table.number("slope").positive().required(0.1);
+  beach.length = table.number("length", "m").positive().required(1);
+  Value<std::vector<double>> humps = table.numbers("humps", "numbers, three to a hump: height, steepness, place");
+  const std::vector<double> given = humps.required();
+  if (given.size() % 3 != 0) humps.fail("'compare.exact.humps' has " + std::to_string(given.size()) + " numbers; each hump has three");
+  for (std::size_t k = 0; k + 2 < given.size(); k += 3) beach.humps.push_back({given[k], given[k + 1], given[k + 2]});
+  return {beach_wave(beach, scene.gravity),
+          std::to_string(beach.humps.size()) + " humps on a slope of " + shown(beach.slope) + ", length " + shown(beach.length) + " m"};
 }
 
 Solution read_bump(Table& table, const Scene& scene) {
@@ -78,8 +118,11 @@ Solution read_exact(Table& table, const Scene& scene) {
   using Reader = Solution (*)(Table&, const Scene&);
   const Reader reader = table
                             .choice<Reader>("type", {{"stoker", read_stoker},
+                                                     {"ritter", read_ritter},
                                                      {"thacker-planar", read_planar},
                                                      {"thacker-radial", read_radial},
+                                                     {"radial-dam-break", read_radial_dam},
+                                                     {"beach-wave", read_beach},
                                                      {"rest", read_rest},
                                                      {"bump", read_bump}})
                             .required();
@@ -108,6 +151,19 @@ double read_window(Table& section, const Solution& solution, const Scene& scene)
   return 0;
 }
 
+// Times at which all errors are taken too; read_time holds them against the end.
+std::vector<double> read_times(Table& section) {
+  Value<std::vector<double>> given = section.numbers("times", "times in s");
+  const std::vector<double> times = given.otherwise({});
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    if (times[k] > (k > 0 ? times[k - 1] : 0)) continue;
+    given.fail("'compare.times' holds " + shown(times[k]) + " as number " + std::to_string(k + 1) +
+               "; the times must be above 0 and increase strictly");
+    return {};
+  }
+  return times;
+}
+
 }  // namespace
 
 ComparePlan read_compare(Table& section, Scene& scene) {
@@ -122,6 +178,12 @@ ComparePlan read_compare(Table& section, Scene& scene) {
   scene.compare.threshold = section.number("threshold", "m").at_least(0).otherwise(scene.compare.threshold);
   scene.compare.grid_spacing = section.number("grid", "m").positive().optional();
   scene.compare.samples = section.integer("samples").within(1, 10000).otherwise(scene.compare.samples);
+  scene.compare.times = read_times(section);
+  scene.compare.where = section.function("where").otherwise({});
+  scene.compare.steady = section.boolean("steady").otherwise(solution.steady);
+  for (const char* key : {"times", "where"})
+    if (section.has(key) && !section.has("exact"))
+      section.error(key, "'compare." + std::string(key) + "' needs an exact solution", "name one as compare.exact");
   ComparePlan plan;
   plan.window = read_window(section, solution, scene);
   plan.around_end = section.choice<bool>("spread", {{"before", false}, {"around", true}}).otherwise(false);

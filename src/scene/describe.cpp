@@ -38,12 +38,19 @@ std::string bed(const Scene& scene) {
                                : ", not smoothed");
 }
 
+std::string friction(const std::optional<Manning>& manning) {
+  if (!manning) return "none";
+  if (!manning->map) return "Manning n = " + brief(manning->n) + " s/m^(1/3)";
+  return "Manning n: " + manning->description + ", the nearest of a lattice of " + brief(manning->step[0]) + " m";
+}
+
 std::string water(const Scene& scene) {
   const Water& water = scene.water;
   const bool equal_mass = water.start == Water::Start::equal_mass;
   std::string out =
       "spacing " + brief(water.spacing) + (equal_mass ? " m in the deepest water, equal masses" : " m");
   if (water.surface) out += ", from its surface";
+  if (water.disorder > 0) out += ", disorder " + brief(water.disorder) + " of it (seed " + std::to_string(water.seed) + ")";
   return out + (water.velocity[0] ? ", moving" : ", at rest");
 }
 
@@ -92,6 +99,15 @@ std::string run_up(const RunUp& run_up, const Domain& domain) {
   return out + ", measured " + brief((*run_up.measured)[0]) + " to " + brief((*run_up.measured)[1]) + " m";
 }
 
+std::string profile(const Transect& profile, const Domain& domain) {
+  std::string out = profile.name + " from " + point(profile.line[0], domain) + " to " + point(profile.line[1], domain);
+  out += " at t = " + brief(profile.time) + " s";
+  if (!profile.measured) return out;
+  const Series& measured = *profile.measured;
+  return out + ", measured " + counted(measured.t.size(), "row") + " from " + brief(measured.t.front()) + " to " +
+         brief(measured.t.back()) + " m";
+}
+
 std::string numerics(const Scene& scene) {
   const Sph& sph = scene.sph;
   std::string out = scene.method + ", " + name_in(kernel_names(), sph.kernel) + " kernel" +
@@ -113,8 +129,19 @@ std::string output(const Scene& scene) {
   return out;
 }
 
+std::string rasters(const Rasters& rasters) {
+  std::string out = "cells of " + brief(rasters.spacing) + " m, ";
+  out += rasters.what.empty() ? "no maps in time" : counted(rasters.what.size(), "map") + ' ';
+  if (!rasters.what.empty()) out += rasters.every > 0 ? "every " + brief(rasters.every) + " s" : "first and last";
+  if (rasters.maxima) out += ", maxima and arrival above " + brief(rasters.arrival) + " m in every step";
+  return out;
+}
+
 std::string compare(const Compare& compare) {
   std::string out = compare.description + ", depths above " + brief(compare.threshold) + " m";
+  for (const double t : compare.times) out += (t == compare.times.front() ? ", also at " : ", ") + brief(t);
+  if (!compare.times.empty()) out += " s";
+  if (compare.where) out += ", in a part of the domain";
   if (compare.samples == 1) return out;
   return out + ", median of " + std::to_string(compare.samples) + " times in the last " +
          brief(compare.window) + " s";
@@ -130,15 +157,17 @@ std::vector<std::string> describe(const Scene& scene) {
   add("scene", scene.name + " (" + scene.file + ")");
   add("domain", extent(scene.domain));
   add("bed", bed(scene));
-  add("friction", scene.manning ? "Manning n = " + brief(*scene.manning) + " s/m^(1/3)" : "none");
+  add("friction", friction(scene.manning));
   add("water", water(scene));
   add("walls", counted(scene.walls.size(), "line"));
   for (const OpenBoundary& b : scene.boundaries) add("boundary", boundary(b, scene.domain));
   for (const Gauge& g : scene.gauges) add("gauge", gauge(g, scene.domain));
   for (const RunUp& r : scene.run_ups) add("run-up", run_up(r, scene.domain));
+  for (const Transect& p : scene.profiles) add("profile", profile(p, scene.domain));
   add("time", "0 to " + brief(scene.end_time) + " s");
   add("method", numerics(scene));
   add("output", output(scene));
+  if (scene.rasters) add("raster", rasters(*scene.rasters));
   if (scene.compare.exact) add("compare", compare(scene.compare));
   for (const std::string& note : scene.notes) add("note", note);
   return lines;

@@ -1,4 +1,4 @@
-// [[gauge]] and [[runup]]: where the result is compared with measurements.
+// [[gauge]], [[runup]] and [[profile]]: where the result is compared with measurements.
 #include <algorithm>
 #include <cmath>
 
@@ -14,6 +14,22 @@ void require_new_name(Table& section, const std::vector<Station>& stations, cons
   if (std::any_of(stations.begin(), stations.end(), same)) {
     section.error("name", "the name '" + name + "' stands for two of them", "results are listed by name");
   }
+}
+
+// 2-D: two points; 1-D: two numbers.
+std::array<Point, 2> read_profile_line(Table& section, const Scene& scene) {
+  std::vector<Point> ends;
+  if (scene.domain.dimension == 1) {
+    for (const double x : section.numbers("line", "two numbers (x, in m)").required()) ends.push_back({x, 0});
+  } else {
+    ends = section.points("line").required();
+  }
+  if (ends.size() == 2 && ends[0] != ends[1] && require_inside(section, "line", "the profile", ends[0], scene) &&
+      require_inside(section, "line", "the profile", ends[1], scene))
+    return {ends[0], ends[1]};
+  if (!ends.empty() && (ends.size() != 2 || ends[0] == ends[1]))
+    section.error("line", "'" + section.path_of("line") + "' must have two different points");
+  return {};
 }
 
 }  // namespace
@@ -69,6 +85,23 @@ void read_run_up(Table& section, Scene& scene) {
     else measured.fail("'" + section.path_of("measured") + "' must be two levels, [lowest, highest] in m");
   }
   scene.run_ups.push_back(std::move(run_up));
+}
+
+void read_profile(Table& section, Scene& scene) {
+  Transect profile;
+  profile.name = section.text("name").required();
+  require_new_name(section, scene.profiles, profile.name);
+  profile.line = read_profile_line(section, scene);
+  profile.one_dimensional = scene.domain.dimension == 1;
+  const double end = scene.end_time;
+  profile.time = section.number("time", "s")
+                     .at_least(0)
+                     .check([end](double t) { return !(end > 0) || t <= end; }, "at most time.end (" + shown(end) + ")")
+                     .required();
+  profile.spacing = section.number("spacing", "m").positive().otherwise(scene.water.spacing);
+  Table measured = section.table("measured");
+  if (measured.given()) profile.measured = read_series(measured, SeriesUse::measured, "x");
+  scene.profiles.push_back(std::move(profile));
 }
 
 }  // namespace freshet::input

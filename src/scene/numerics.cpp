@@ -60,6 +60,9 @@ void read_time(Table& section, const ComparePlan& compare, Scene& scene) {
     section.error("end",
                   "the run ends before the comparison window of " + shown(compare.window) + " s is over");
   }
+  if (end && !scene.compare.times.empty() && scene.compare.times.back() > scene.end_time) {
+    section.error("end", "the run ends before " + shown(scene.compare.times.back()) + " s, the last of 'compare.times'");
+  }
   scene.cfl = section.number("cfl")
                   .positive()
                   .check([](double cfl) { return cfl <= 2; }, "at most 2")

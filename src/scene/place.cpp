@@ -1,6 +1,8 @@
 #include "src/scene/place.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 #include "src/errors.hpp"
@@ -17,13 +19,6 @@ double finite_depth(const Function& depth, double x, double y) {
   return d;
 }
 
-Point velocity_at(const Scene& scene, double x, double y) {
-  Point v{0, 0};
-  for (int k = 0; k < 2; ++k)
-    if (scene.water.velocity[k]) v[k] = scene.water.velocity[k](x, y);
-  return v;
-}
-
 // Cells along one side of the box.
 struct Cells {
   int n;
@@ -34,6 +29,14 @@ Cells cells_along(const Scene& scene, int axis) {
   const double length = scene.domain.high[axis] - scene.domain.low[axis];
   const int n = std::max(1, static_cast<int>(std::lround(length / scene.water.spacing)));
   return {n, scene.domain.low[axis], length / n};
+}
+
+// A number of [-1, 1) that depends on the seed and the counter alone (splitmix64).
+double random_offset(int seed, std::uint64_t counter) {
+  std::uint64_t z = static_cast<std::uint64_t>(seed) * 0x632be59bd9b4e019u + (counter + 1) * 0x9e3779b97f4a7c15u;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1;
 }
 
 // The part of a cell that is in the water and its middle: all or nothing where corners and centre agree.
@@ -62,12 +65,18 @@ std::vector<Placed> place_cells(const Scene& scene, const Function& depth) {
   std::vector<Placed> particles;
   const bool plane = scene.domain.dimension == 2;
   const Cells along_x = cells_along(scene, 0), along_y = plane ? cells_along(scene, 1) : Cells{1, -0.5, 1};
-  const double area = along_x.width * along_y.width;
+  const double area = along_x.width * along_y.width, disorder = scene.water.disorder;
+  const auto moved = [&](const Point& middle, int cell) {
+    const auto off = [&](int k) { return disorder * random_offset(scene.water.seed, 2 * static_cast<std::uint64_t>(cell) + static_cast<std::uint64_t>(k)); };
+    const Point to{middle[0] + along_x.width * off(0), middle[1] + (plane ? along_y.width * off(1) : 0.0)};
+    return disorder > 0 && water.holds(to) ? to : middle;
+  };
   for (int j = 0; j < along_y.n; ++j)
     for (int i = 0; i < along_x.n; ++i) {
       CutCell cell{1, {along_x.centre(i), along_y.centre(j)}};
       if (plane && !water.everywhere()) cell = cut_cell(water, cell.middle, along_x.width, along_y.width);
-      const double x = cell.middle[0], y = cell.middle[1], own = cell.part * area;
+      const Point at = moved(cell.middle, j * along_x.n + i);
+      const double x = at[0], y = at[1], own = cell.part * area;
       if (cell.part < least_part) continue;
       const double d = finite_depth(depth, x, y), h0 = scene.sph.eta * (plane ? std::sqrt(own) : own);
       if (d > scene.water.wet_above) particles.push_back({{x, y}, d, own, h0, velocity_at(scene, x, y)});
@@ -99,10 +108,27 @@ std::vector<Placed> place_equal_mass(const Scene& scene, const Function& depth) 
   return particles;
 }
 
+// A surface less a bed leaves rounding where it is dry: masses so far apart (1e-15) end in NaN sooner or later.
+void drop_rounding(std::vector<Placed>& particles) {
+  constexpr double rounding = 1e-9;  // of the deepest water
+  double deepest = 0;
+  for (const Placed& p : particles) deepest = std::max(deepest, p.depth);
+  const auto dry = [&](const Placed& p) { return p.depth <= rounding * deepest; };
+  particles.erase(std::remove_if(particles.begin(), particles.end(), dry), particles.end());
+}
+
 }  // namespace
+
+Point velocity_at(const Scene& scene, double x, double y) {
+  Point v{0, 0};
+  for (int k = 0; k < 2; ++k)
+    if (scene.water.velocity[k]) v[k] = scene.water.velocity[k](x, y);
+  return v;
+}
 
 std::vector<Placed> place(const Scene& scene, const Function& depth) {
   auto particles = scene.water.start == Water::Start::equal_mass ? place_equal_mass(scene, depth) : place_cells(scene, depth);
+  drop_rounding(particles);
   if (particles.empty() && scene.boundaries.empty()) throw SceneError("water: no particle is wet; the depth is nowhere above " +
                                           std::to_string(scene.water.wet_above) + " m: check [water] and [bed]");
   return particles;

@@ -14,8 +14,10 @@ struct Placed {
   Point velocity;   // m/s
 };
 
+Point velocity_at(const Scene& scene, double x, double y);  // m/s, at t = 0
+
 // Cell-centred lattice whose cells fill the domain's box exactly (so dx and dy may differ by a little), or in 1-D particles
-// of equal mass. depth(x, y) [m]; places where depth > scene.water.wet_above. Throws SceneError if nothing is wet or a
+// of equal mass. depth(x, y) [m]; places where depth > scene.water.wet_above and 1e-9 of the deepest. Throws SceneError if nothing is wet or a
 // depth is not finite.
 std::vector<Placed> place(const Scene& scene, const Function& depth);
 

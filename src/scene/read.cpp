@@ -27,12 +27,16 @@ void read_each(Table& root, const std::string& key, Scene& scene, Reader reader)
 void read_sections(Table& root, Scene& scene) {
   Table head = root.table("scene"), domain = root.table("domain"), sph = root.table("sph");
   Table water = root.table("water"), bed = root.table("bed"), compare = root.table("compare");
+  Table split = root.table("split"), merge = root.table("merge");
   Table time = root.table("time"), output = root.table("output"), limits = root.table("limits");
+  Table raster = root.table("raster");
   read_scene_section(head, scene);
   read_domain(domain, scene);
   const bool acceleration_named = read_sph(sph, scene);
   read_spacing(water, scene);
   read_bed(bed, scene);
+  read_split(split, scene);
+  read_merge(merge, scene);
   const ComparePlan plan = read_compare(compare, scene);
   // Exact solutions belong to the classical shallow-water equations.
   if (!acceleration_named && scene.compare.exact) scene.sph.acceleration = Acceleration::classical;
@@ -45,7 +49,9 @@ void read_sections(Table& root, Scene& scene) {
     sph.error("well_balanced", "a well-balanced run needs a basin without open boundaries", "remove one of the two");
   read_each(root, "gauge", scene, read_gauge);
   read_each(root, "runup", scene, read_run_up);
+  read_each(root, "profile", scene, read_profile);
   read_output(output, scene);
+  read_rasters(raster, scene);
   read_limits(limits, scene);
 }
 

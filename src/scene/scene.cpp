@@ -1,6 +1,7 @@
 #include "src/scene/scene.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace freshet {
 
@@ -12,6 +13,12 @@ double Series::at(double time) const {
   const std::size_t i = after - t.begin();
   const double part = (time - t[i - 1]) / (t[i] - t[i - 1]);
   return value[i - 1] + part * (value[i] - value[i - 1]);
+}
+
+Point Transect::at(double place) const {
+  if (one_dimensional) return {place, 0};
+  const double dx = line[1][0] - line[0][0], dy = line[1][1] - line[0][1], part = place / std::hypot(dx, dy);
+  return {line[0][0] + part * dx, line[0][1] + part * dy};
 }
 
 }  // namespace freshet

@@ -38,13 +38,25 @@ struct Bed {
   int nodata = 0;                 // cells without a value in the file
 };
 
+// Manning's n [s/m^(1/3)]: one number, or a map of the ground.
+struct Manning {
+  double n = 0;              // where there is no map
+  Function map;              // by place; a place takes the value of the nearest node of the lattice:
+  Point node{}, step{1, 1};  // m, one of its nodes, and their spacings
+  std::string description;   // of the map: for the read-back
+  Manning(double number = 0) : n(number) {}
+};
+
 struct Water {
   double spacing = 0;                         // m, particle spacing dx
-  enum class Start { cells, equal_mass } start = Start::cells;
+  // relaxed: cells, then pushed by their own pressure until they lie still along slanting and curved walls
+  enum class Start { cells, equal_mass, relaxed } start = Start::cells;
   Function depth;                             // m; particles are placed where it is > wet_above
   Function surface;                           // m; absent where the scene gives the depth: depth = surface - bed
   std::array<Function, 2> velocity;           // m/s; absent = at rest
   double wet_above = 0;                       // m
+  double disorder = 0;                        // x dx: each particle starts up to so far off its cell's centre along each axis
+  int seed = 1;                               // of the disorder
 };
 
 struct Wall {
@@ -85,6 +97,17 @@ struct RunUp {
   std::optional<std::array<double, 2>> measured;  // m, lowest and highest
 };
 
+// The surface along a line at one time.
+struct Transect {
+  std::string name;
+  std::array<Point, 2> line{};     // m, from and to
+  bool one_dimensional = false;
+  double time = 0;                 // s
+  double spacing = 0;              // m, of the points that are written
+  std::optional<Series> measured;  // free-surface elevation [m] over the place on the line [m]: 1-D x, 2-D distance from line[0]
+  Point at(double place) const;    // the point of the line there
+};
+
 enum class Stabilisation { none, artificial_viscosity, lax_friedrichs, lax_friedrichs_muscl, two_shock, two_shock_muscl };
 // automatic: mirror images where every corner of the walls is a right one with the water inside, else rows. See kernels/walls.hpp.
 enum class Walling { automatic, none, vbp, mvbp, rows, mirror };
@@ -106,12 +129,41 @@ struct Sph {
   bool well_balanced = false;  // still water over any bed stays at rest to round-off (kernels/swe/well_balanced.hpp)
 };
 
+// A limit on the area that a particle covers, in spacing^D; it may differ by region.
+struct AreaLimit {
+  struct Region {
+    std::vector<Point> corners;  // m, of a polygon; 1-D: both ends
+    double area;
+  };
+  std::optional<double> elsewhere;  // absent = no limit there
+  std::vector<Region> regions;      // the first that holds a place counts
+};
+
+struct Split {
+  AreaLimit area;          // a particle that covers this or more is split
+  int into = 7;            // daughters: 7 in 2-D, 2 or 3 in 1-D
+  double alpha, eps;       // a daughter's h and the pattern's radius, x the parent's h
+  double relax = 3;        // h / c: time in which a daughter's h goes to eta (m / depth)^(1/D)
+  bool linear = false;     // daughters follow the velocity gradient; else they have the parent's velocity
+  double least_depth = 0;  // m
+  int most_particles = 20000000;
+};
+
+struct Merge {
+  AreaLimit area;     // particles that both cover less merge
+  double reach = 1;   // x h: how far apart at most
+  double relax = 3;   // h / c
+};
+
 struct Compare {
   std::shared_ptr<const Exact> exact;
   double threshold = 1e-3;             // m, depth_l1_rel counts where the exact depth is above it
   std::optional<double> grid_spacing;  // m, of the regular grid of grid_l2_rel (default: 1/200 of the domain)
   int samples = 1;                     // depth_l1_rel is the median over this many times ...
   double window = 0;                   // s, ... evenly spread over the last `window` seconds before the end
+  std::vector<double> times;           // s, increasing: all errors are also taken at these
+  Function where;                      // errors count where it is not 0; absent = everywhere
+  bool steady = false;                 // the exact flow does not change: largest speed and rate of change are recorded
   std::string description;             // "stoker: 10 m | 5 m, dam at 1000 m": for the read-back
 };
 
@@ -119,6 +171,16 @@ struct Output {
   double every = 0;         // s, particle output (0 = first and last state only)
   double gauges_every = 0;  // s (0 = as `every`)
   double checkpoint_every = 600;  // s of wall clock
+};
+
+// Maps on a grid of square cells that covers the domain.
+struct Rasters {
+  enum class Quantity { depth, surface, u, v, speed };
+  double spacing = 0;           // m, of the cells
+  double every = 0;             // s (0 = first and last state only)
+  std::vector<Quantity> what;
+  bool maxima = false;          // largest depth, speed and their product, arrival and last wetness, looked at in every step
+  double arrival = 0.01;        // m, a cell is reached where the depth exceeds it
 };
 
 struct Limits {
@@ -133,7 +195,7 @@ struct Scene {
   std::string text;  // the scene as read, overrides applied, data files absolute: written into every result
   std::vector<std::string> notes;  // what the reader decided on its own, one line each
   double gravity = 9.81;             // m/s2
-  std::optional<double> manning;     // s/m^(1/3)
+  std::optional<Manning> manning;
   double cfl = 0.4;
   double end_time = 0;               // s
   Domain domain;
@@ -143,9 +205,13 @@ struct Scene {
   std::vector<OpenBoundary> boundaries;
   std::vector<Gauge> gauges;
   std::vector<RunUp> run_ups;
+  std::vector<Transect> profiles;
   Sph sph;
+  std::optional<Split> split;
+  std::optional<Merge> merge;
   Compare compare;
   Output output;
+  std::optional<Rasters> rasters;
   Limits limits;
 };
 

@@ -17,6 +17,11 @@ bool read_sph(Table& section, Scene& scene);
 // [bed]. Needs the domain, water.spacing and sph.eta.
 void read_bed(Table& section, Scene& scene);
 
+void read_split(Table& section, Scene& scene);  // [split], if it is named; needs the domain
+void read_merge(Table& section, Scene& scene);  // [merge], likewise, after [split]
+// bed.manning. Needs the domain, water.spacing and bed.spacing.
+void read_manning(Table& bed, Scene& scene);
+
 // [compare]. Needs the bed and water.spacing.
 struct ComparePlan {
   double window = 0;        // s
@@ -34,7 +39,9 @@ void read_wall(Table& section, Scene& scene);    // one [[wall]]; needs the boun
 void note_leaks(Table& root, const Scene& scene);  // open ends of walls; after all walls
 void read_gauge(Table& section, Scene& scene);   // one [[gauge]]
 void read_run_up(Table& section, Scene& scene);  // one [[runup]]
+void read_profile(Table& section, Scene& scene);  // one [[profile]]; needs time.end and water.spacing
 void read_output(Table& section, Scene& scene);  // [output]
+void read_rasters(Table& section, Scene& scene);  // [raster]; needs output.every
 void read_limits(Table& section, Scene& scene);  // [limits]
 
 // A duration: a positive number of seconds or { periods = n } of the exact solution.

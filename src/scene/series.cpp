@@ -86,6 +86,11 @@ bool read_row(const Row& row, const Columns& columns, double& t, double& value) 
          parse_number(row.cells[columns.t], t) && parse_number(row.cells[columns.value], value);
 }
 
+void add(Series& series, const SeriesFile& file, double t, double value) {
+  series.t.push_back(t * file.t_scale + file.t_offset);
+  series.value.push_back(value * file.scale + file.offset);
+}
+
 std::string bad_cell(const Row& row, const Columns& columns) {
   double number;
   for (const std::size_t i : {columns.t, columns.value}) {
@@ -109,9 +114,9 @@ Series sorted(const Series& series, const std::string& path, std::vector<std::st
     out.value.push_back(series.value[i]);
   }
   const std::size_t repeated = series.t.size() - out.t.size();
-  if (!was_sorted) notes.push_back(file_name(path) + ": rows sorted by time");
+  if (!was_sorted) notes.push_back(file_name(path) + ": rows sorted");
   if (repeated > 0) {
-    notes.push_back(file_name(path) + ": " + counted(repeated, "row") + " with a repeated time left out");
+    notes.push_back(file_name(path) + ": " + counted(repeated, "row") + " with a repeated time or place left out");
   }
   return out;
 }
@@ -135,13 +140,13 @@ Series read_forcing(const SeriesFile& file) {
     double t, value;
     if (!read_row(row, columns, t, value))
       throw BadData(at_line(file.path, row.line) + ": " + bad_cell(row, columns));
-    if (!series.t.empty() && !(t > series.t.back())) {
-      throw BadData(at_line(file.path, row.line) + ": time " + shown(t) + " s follows " +
-                        shown(series.t.back()) + " s; times must increase strictly",
+    add(series, file, t, value);
+    const std::size_t n = series.t.size();
+    if (n > 1 && !(series.t[n - 1] > series.t[n - 2])) {
+      throw BadData(at_line(file.path, row.line) + ": time " + shown(series.t[n - 1]) + " s follows " +
+                        shown(series.t[n - 2]) + " s; times must increase strictly",
                     "sort the rows and remove repeated times");
     }
-    series.t.push_back(t);
-    series.value.push_back(value * file.scale + file.offset);
   }
   return series;
 }
@@ -157,8 +162,7 @@ Series read_measured(const SeriesFile& file, std::vector<std::string>& notes) {
       ++left_out;
       continue;
     }
-    series.t.push_back(t);
-    series.value.push_back(value * file.scale + file.offset);
+    add(series, file, t, value);
   }
   if (series.t.empty())
     throw BadData(at_line(file.path, sheet.rows[0].line) + ": " + bad_cell(sheet.rows[0], columns));
@@ -168,13 +172,15 @@ Series read_measured(const SeriesFile& file, std::vector<std::string>& notes) {
   return sorted(series, file.path, notes);
 }
 
-Series read_series(Table& table, SeriesUse use) {
+Series read_series(Table& table, SeriesUse use, const std::string& abscissa) {
   SeriesFile file;
   Value<std::string> path = table.file("file");
-  Value<Column> t = column(table, "t", file.t), value = column(table, "value", file.value);
+  Value<Column> t = column(table, abscissa, file.t), value = column(table, "value", file.value);
   file.path = path.required();
   file.t = *t.optional();
   file.value = *value.optional();
+  file.t_scale = table.number(abscissa + "_scale").positive().otherwise(file.t_scale);
+  file.t_offset = table.number(abscissa + "_offset").otherwise(file.t_offset);
   file.scale = table.number("scale").otherwise(1);
   file.offset = table.number("offset").otherwise(0);
   if (file.path.empty()) return {};

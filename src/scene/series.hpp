@@ -19,6 +19,7 @@ struct Column {
 struct SeriesFile {
   std::string path;
   Column t{1, ""}, value{2, ""};
+  double t_scale = 1, t_offset = 0;  // s per unit of the column, s
   double scale = 1, offset = 0;
 };
 
@@ -34,8 +35,9 @@ Series read_forcing(const SeriesFile& file);
 // a note.
 Series read_measured(const SeriesFile& file, std::vector<std::string>& notes);
 
-// The section `{ file, t, value, scale, offset }`; empty series after an error, which is reported.
+// The section `{ file, t, value, t_scale, t_offset, scale, offset }`; empty series after an error, which is reported. A series
+// over a place has `x` for `t`.
 enum class SeriesUse { forcing, measured };
-Series read_series(Table& table, SeriesUse use);
+Series read_series(Table& table, SeriesUse use, const std::string& abscissa = "t");
 
 }  // namespace freshet::input

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "src/scene/floodplain.hpp"
 #include "src/scene/table.hpp"
 
 namespace freshet::input {
@@ -59,6 +60,17 @@ Function slope(Table& shape, int dimension) {
   };
 }
 
+Function plain(Table& shape, int dimension) {
+  Floodplain plain;
+  plain.seed = shape.integer("seed").at_least(0).otherwise(plain.seed);
+  const std::vector<double> box = shape.numbers("box", "numbers in m: x0, y0, x1, y1").otherwise({0, 0, 9000, 4000});
+  if (dimension == 1 || box.size() != 4 || !(box[0] < box[2] && box[1] < box[3]))
+    shape.error("box", "a flood plain has a box [x0, y0, x1, y1] in a 2-D scene, its low corner first");
+  else
+    plain.low = {box[0], box[1]}, plain.high = {box[2], box[3]};
+  return floodplain(plain);
+}
+
 }  // namespace
 
 Function read_shape(Table& shape, int dimension, std::string& description) {
@@ -66,7 +78,11 @@ Function read_shape(Table& shape, int dimension, std::string& description) {
   const Reader reader =
       shape
           .choice<Reader>("type",
-                          {{"hump", hump}, {"step", step}, {"paraboloid", paraboloid}, {"slope", slope}})
+                          {{"hump", hump},
+                           {"step", step},
+                           {"paraboloid", paraboloid},
+                           {"slope", slope},
+                           {"floodplain", plain}})
           .required();
   if (!reader) {
     shape.accept_rest();  // without its type nobody knows which keys belong to it

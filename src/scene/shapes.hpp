@@ -16,6 +16,7 @@ class Table;
 // paraboloid  depth [m] of the vertex below z = 0, radius [m] of the contour z = 0, centre = [x, y]
 // slope       gradient = dz/dx or [dz/dx, dz/dy], from = x or [x, y] [m] where the level is `level` [m]
 // (default 0)
+// floodplain  seed (default 1), box = [x0, y0, x1, y1] [m] (default 9 x 4 km): floodplain.hpp
 Function read_shape(Table& shape, int dimension, std::string& description);
 
 }  // namespace freshet::input

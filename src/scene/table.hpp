@@ -97,11 +97,13 @@ class Table {
   Value<std::string> text(const std::string& key);
   template <class E>
   Value<E> choice(const std::string& key, const std::vector<std::pair<std::string, E>>& choices);
+  template <class E>  // an array of such words
+  Value<std::vector<E>> choices(const std::string& key, const std::vector<std::pair<std::string, E>>& choices);
 
   // Shapes.
   Value<std::vector<double>> numbers(const std::string& key, const std::string& what = "numbers");
   Value<Point> point(const std::string& key, int dimension = 2);  // [x, y]; 1-D: x or [x]
-  Value<std::vector<Point>> points(const std::string& key);       // [[x, y], ...]
+  Value<std::vector<Point>> points(const std::string& key);       // [[x, y], ...] or a file with a row x, y for each
   Value<Function> function(const std::string& key);               // a number or an expression in x and y
   Value<std::array<Function, 2>> velocity(const std::string& key, int dimension);
   Value<std::string> file(const std::string& key);  // absolute path of an existing file
@@ -136,10 +138,12 @@ class Table {
   Value<T> value(const std::string& key, std::optional<T> found, const std::string& hint = "") {
     return Value<T>(slot(key, hint), std::move(found));
   }
+  Value<std::vector<Point>> points_from_file(const std::string& key);
   void wrong_type(const std::string& key, const toml::node& node, const std::string& wanted) const;
   Place place_from(const toml::source_region& region) const;
   std::optional<Function> compiled(const toml::node& node, const std::string& path);
   Value<std::string> word(const std::string& key, const std::vector<std::string>& words);
+  Value<std::vector<std::string>> words(const std::string& key, const std::vector<std::string>& known);
 
   Context& context_;
   toml::table* table_;
@@ -153,15 +157,33 @@ class Table {
 };
 
 template <class E>
-Value<E> Table::choice(const std::string& key, const std::vector<std::pair<std::string, E>>& choices) {
+std::vector<std::string> words_of(const std::vector<std::pair<std::string, E>>& choices) {
   std::vector<std::string> words;
   for (const auto& choice : choices) words.push_back(choice.first);
-  const std::optional<std::string> found = word(key, words).optional();
-  std::optional<E> chosen;
-  for (const auto& choice : choices) {
-    if (found && choice.first == *found) chosen = choice.second;
-  }
-  return value<E>(key, chosen, listed(words));
+  return words;
+}
+
+template <class E>
+E chosen(const std::string& word, const std::vector<std::pair<std::string, E>>& choices) {
+  for (const auto& choice : choices)
+    if (choice.first == word) return choice.second;
+  return choices.front().second;
+}
+
+template <class E>
+Value<E> Table::choice(const std::string& key, const std::vector<std::pair<std::string, E>>& choices) {
+  const std::optional<std::string> found = word(key, words_of(choices)).optional();
+  return value<E>(key, found ? std::optional<E>(chosen(*found, choices)) : std::nullopt, listed(words_of(choices)));
+}
+
+template <class E>
+Value<std::vector<E>> Table::choices(const std::string& key, const std::vector<std::pair<std::string, E>>& choices) {
+  const std::optional<std::vector<std::string>> found = words(key, words_of(choices)).optional();
+  std::optional<std::vector<E>> all;
+  if (found) all.emplace();
+  if (found)
+    for (const std::string& word : *found) all->push_back(chosen(word, choices));
+  return value<std::vector<E>>(key, all, "an array of " + listed(words_of(choices)));
 }
 
 }  // namespace freshet::input

@@ -40,9 +40,14 @@ void read_spacing(Table& section, Scene& scene) {
   water.spacing = spacing.required();
   water.start = section
                     .choice<Water::Start>(
-                        "start", {{"cells", Water::Start::cells}, {"equal-mass", Water::Start::equal_mass}})
+                        "start", {{"cells", Water::Start::cells}, {"equal-mass", Water::Start::equal_mass}, {"relaxed", Water::Start::relaxed}})
                     .otherwise(water.start);
   water.wet_above = section.number("wet_above", "m").at_least(0).otherwise(water.wet_above);
+  Value<double> disorder = section.number("disorder");
+  water.disorder = disorder.within(0, 10).otherwise(0);
+  water.seed = section.integer("seed").at_least(0).otherwise(water.seed);
+  if (water.disorder > 0 && water.start == Water::Start::equal_mass)
+    disorder.fail("'water.disorder' moves cells, and 'water.start' is 'equal-mass'", "use start = \"cells\"");
 }
 
 void read_water_state(Table& section, Scene& scene) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/scene/region.hpp"
+
 namespace freshet {
 namespace {
 
@@ -12,17 +14,6 @@ double cross(const Point& a, const Point& b, const Point& c) {
 
 bool segments_cross(const Point& a, const Point& b, const Point& c, const Point& d) {
   return cross(a, b, c) * cross(a, b, d) < 0 && cross(c, d, a) * cross(c, d, b) < 0;
-}
-
-// Even-odd rule.
-bool inside(const std::vector<Point>& line, const Point& p) {
-  bool in = false;
-  for (std::size_t k = 0; k + 1 < line.size(); ++k) {
-    const Point &a = line[k], &b = line[k + 1];
-    const bool spans = (a[1] > p[1]) != (b[1] > p[1]);
-    if (spans && p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])) in = !in;
-  }
-  return in;
 }
 
 }  // namespace
@@ -66,7 +57,7 @@ WaterRegion::WaterRegion(const std::vector<Wall>& walls) {
 bool WaterRegion::holds(const Point& p) const {
   for (const Outline& outline : outlines_) {
     const bool near = p[0] >= outline.low[0] && p[0] <= outline.high[0] && p[1] >= outline.low[1] && p[1] <= outline.high[1];
-    if ((near && inside(outline.line, p)) != outline.water_inside) return false;
+    if ((near && input::encloses(outline.line, p)) != outline.water_inside) return false;
   }
   return true;
 }

@@ -8,6 +8,10 @@
 namespace freshet::swe {
 namespace {
 
+// sum V W is 1 within the water, 1/2 at a straight wall, 1/4 in a corner, and falls to 0 beyond a dry front: there the mean of the
+// few particles that reach a point would carry their depth up to 2h ahead of the water.
+constexpr double least_cover = 0.25;
+
 template <int D>
 Vec<double, D> to_vec(const Point& p) {
   Vec<double, D> v;
@@ -54,6 +58,28 @@ Totals Solver<D>::totals() const {
   return totals;
 }
 
+// The variational acceleration belongs to water that follows the bed: its vertical velocity v . grad b counts.
+template <int D>
+Mechanics Solver<D>::mechanics() const {
+  const Particles<D> p = bind();
+  const Field<int> kinds = kind();
+  const std::optional<Bed<D>> beds = bed();
+  const bool open = !boundaries_.empty(), with_bed = beds.has_value(), rising = with_bed && beds->variational;
+  const double g = scene_.gravity;
+  const auto sums = sums_.template sum<4>("swe::mechanics", particles_.size(), KOKKOS_LAMBDA(int i) {
+    Kokkos::Array<double, 4> sum{};
+    if (open && kinds(i) != 0) return sum;
+    const Vec<double, D> v = at(p.v, i);
+    const double up = rising ? dot(v, beds->spline.sloped_at(at(p.x, i)).slope) : 0.0;
+    sum[0] = p.m(i) * v.x;
+    if constexpr (D == 2) sum[1] = p.m(i) * v.y;
+    sum[2] = 0.5 * p.m(i) * (dot(v, v) + up * up);
+    sum[3] = p.m(i) * g * ((with_bed ? beds->level(i) : 0.0) + 0.5 * p.rho(i));
+    return sum;
+  });
+  return {{sums[0], sums[1]}, sums[2], sums[3]};
+}
+
 template <int D>
 std::vector<PointState> Solver<D>::sample(const std::vector<Point>& points) const {
   const Particles<D> p = bind();
@@ -70,7 +96,7 @@ std::vector<PointState> Solver<D>::sample(const std::vector<Point>& points) cons
       weight += w;
       depth += w * p.rho(j);
     });
-    states[k] = {bed_ ? bed_->spline.at(at_point).b : 0.0, weight > 0 ? depth / weight : 0.0, weight > 0};
+    states[k] = {bed_ ? bed_->spline.at(at_point).b : 0.0, depth / larger(weight, least_cover), weight > 0};
   }
   return states;
 }
@@ -99,10 +125,12 @@ std::vector<std::string> Solver<D>::features() const {
     names.push_back("well-balanced bed");
   else if (bed_)
     names.push_back(bed_->variational ? "bed, variational acceleration" : "bed, classical acceleration");
-  if (friction_) names.push_back("Manning friction");
+  if (friction_) names.push_back(friction_->roughness2.given() ? "Manning friction by place" : "Manning friction");
   if (walls_)
     names.push_back("walls (" + name_in(wall_kind_names(), walls_->kind()) + "), " + std::to_string(walls_->points()) + " points");
   if (!boundaries_.empty()) names.push_back("open boundaries: " + std::to_string(boundaries_.size()));
+  if (scene_.split) names.push_back("splitting into " + std::to_string(scene_.split->into));
+  if (scene_.merge) names.push_back("merging");
   return names;
 }
 
@@ -111,6 +139,7 @@ ScalarState Solver<D>::scalars() const {
   ScalarState state{{"crossing_time", {crossing_time_}}, {"next_id", {static_cast<double>(next_id_)}},
                     {"rebuilds", {static_cast<double>(report_.rebuilds)}}};
   for (size_t k = 0; k < boundaries_.size(); ++k) state["boundary." + std::to_string(k)] = boundaries_[k].save();
+  if (refinement_) state["refinement"] = refinement_->save();
   return state;
 }
 
@@ -120,6 +149,7 @@ void Solver<D>::restore(const ScalarState& state) {
   next_id_ = static_cast<int>(state.at("next_id")[0]);
   report_.rebuilds = static_cast<long>(state.at("rebuilds")[0]);
   for (size_t k = 0; k < boundaries_.size(); ++k) boundaries_[k].restore(state.at("boundary." + std::to_string(k)));
+  if (refinement_) refinement_->restore(state.at("refinement"));
   const Particles<D> p = bind();
   Kokkos::parallel_for("swe::restore", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) { p.inv_h(i) = 1.0 / p.h(i); });
   find_neighbours();  // the saved order is sorted already; gauges and walls ask for rows and lists before the next step

@@ -3,6 +3,7 @@
 
 #include "src/errors.hpp"
 #include "src/scene/place.hpp"
+#include "src/swe/relax.hpp"
 #include "src/swe/solver.hpp"
 
 namespace freshet::swe {
@@ -26,25 +27,43 @@ void set_field(const Field<double>& field, const std::vector<Placed>& particles,
 
 }  // namespace
 
+// On slopes below 1e-3 the variational acceleration differs from the classical one by 1e-6 g: the bed's curvature is not
+// looked up there.
 template <int D>
 void Solver<D>::build_bed() {
+  constexpr double flat = 1e-3;
   if (!scene_.bed.elevation) return;
   const double spacing = scene_.bed.spacing > 0 ? scene_.bed.spacing : scene_.water.spacing;
-  bed_ = Bed<D>{BedSpline<D>(scene_.bed.elevation, {scene_.domain.low, scene_.domain.high, spacing, scene_.bed.filter}),
-                scene_.sph.acceleration == Acceleration::variational, {}};
+  bed_ = Bed<D>{BedSpline<D>(scene_.bed.elevation, {scene_.domain.low, scene_.domain.high, spacing, scene_.bed.filter}), false, {}};
+  bed_->variational = scene_.sph.acceleration == Acceleration::variational && bed_->spline.steepest() >= flat;
+}
+
+template <int D>
+void Solver<D>::build_friction() {
+  if (!scene_.manning) return;
+  const Manning& manning = *scene_.manning;
+  friction_ = Friction{scene_.gravity, manning.n};
+  if (!manning.map) return;
+  const auto squared = [&](double x, double y) { const double n = manning.map(x, y); return n * n; };
+  friction_->roughness2 = NearestTable(squared, {scene_.domain.low, scene_.domain.high, manning.node, manning.step});
+}
+
+// Depth at t = 0 over the bed as the particles feel it: filtered and tabulated.
+template <int D>
+Function Solver<D>::initial_depth() const {
+  if (!scene_.water.surface) return scene_.water.depth;
+  return [this](double x, double y) {
+    Vec<double, D> at;
+    at.x = x;
+    if constexpr (D == 2) at.y = y;
+    return scene_.water.surface(x, y) - (bed_ ? bed_->spline.at(at).b : 0.0);
+  };
 }
 
 template <int D>
 void Solver<D>::place_particles() {
-  Function depth = scene_.water.depth;
-  if (scene_.water.surface)  // over the bed as the particles feel it: filtered and tabulated
-    depth = [this](double x, double y) {
-      Vec<double, D> at;
-      at.x = x;
-      if constexpr (D == 2) at.y = y;
-      return scene_.water.surface(x, y) - (bed_ ? bed_->spline.at(at).b : 0.0);
-    };
-  const std::vector<Placed> placed = place(scene_, depth);
+  const bool relaxed = scene_.water.start == Water::Start::relaxed;
+  const std::vector<Placed> placed = relaxed ? relaxed_lattice<D>(scene_, initial_depth()) : place(scene_, initial_depth());
   particles_ = FieldSet(static_cast<int>(placed.size()));
   make_fields();
   const Particles<D> p = bind();
@@ -92,7 +111,8 @@ void Solver<D>::make_fields() {
   f.integer("id", "1", Carry::state);
   if (gradient_)
     for (const char* name : {"strain_xx", "strain_xy", "strain_yy"})
-      if (D == 2 || name == std::string("strain_xx")) f.real(name, "1/s", Carry::no);
+      if (D == 2 || name == std::string("strain_xx"))
+        f.real(name, "1/s", scene_.split && scene_.split->linear ? Carry::result : Carry::no);
   if (depth_gradient_) vector("depth_slope_x", "depth_slope_y", "1", Carry::no);
   if (scene_.sph.well_balanced) f.real("calibration", "1", Carry::state);
   if (bed_) f.real("bed", "m", Carry::result);

@@ -37,10 +37,11 @@ Solver<D>::Solver(const Scene& scene)
       support_(std::visit([](const auto& k) { return k.support; }, kernel_)), order_(D, scene.water.spacing),
       stabilise_(make_stabilisation(scene.sph, scene.gravity)), gradient_(needs_velocity_gradient(stabilise_)),
       depth_gradient_(needs_depth_gradient(stabilise_)), imposed_alpha_(lattice_sums<D>(scene.sph.eta, kernel_).alpha) {
-  if (scene.manning) friction_ = Friction{scene.gravity, *scene.manning};
   build_bed();
+  build_friction();
   build_boundaries();
   build_walls();
+  build_refinement();
   place_particles();
   fill_boundaries();
   find_neighbours();
@@ -58,7 +59,9 @@ void Solver<D>::step(double t, double dt) {
   kick_and_drift<D>(bind(), motion(), particles_.size(), dt);
   if (walls_) walls_->reflect(clusters_, bind().x, bind().v, bind().v_pred);
   for (auto& boundary : boundaries_) boundary.exchange(particles_, [this] { return bind(); }, bed(), t + dt, dt, next_id_);
+  if (refinement_) refine();
   find_neighbours();
+  if (refinement_) refinement_->relax(clusters_, neighbours_.view(), bind(), kind(), dt);
   evaluate(0.5 * dt, 0.5);
   for (auto& boundary : boundaries_) boundary.observe(order_.rows(), bind(), kind(), bed());
 }
@@ -92,7 +95,7 @@ void Solver<D>::list_neighbours() {
 template <int D>
 void Solver<D>::close_density(double ahead) {
   constexpr int most_lists = 20;  // each may grow h by the margin at most before it is made again
-  const DensityOptions options{scene_.gravity, scene_.sph.newton_tolerance, list_margin,
+  DensityOptions options{scene_.gravity, scene_.sph.newton_tolerance, list_margin,
                                {scene_.sph.h_floor, scene_.sph.h_cap}, gradient_, imposed_alpha_, ahead,
                                scene_.sph.well_balanced ? particles_.real("calibration") : Field<double>()};
   for (int lists = 0; lists < most_lists; ++lists) {
@@ -103,6 +106,7 @@ void Solver<D>::close_density(double ahead) {
     report_.floored = r.floored;
     if (r.outgrown == 0) return;
     ++report_.rebuilds;
+    options.ahead = 0;  // the rate of the step before is overwritten, perhaps by that of a particle without its neighbours
     list_neighbours();
   }
   throw Diverged("the density did not settle: some smoothing length still outgrows its neighbour list after " +
@@ -121,7 +125,7 @@ template <int D>
 MotionOptions<D> Solver<D>::motion() const {
   // In a well-balanced run t holds the bed's part already.
   return {scene_.gravity, {scene_.sph.h_floor, scene_.sph.h_cap}, scene_.sph.well_balanced ? std::nullopt : bed(), friction_,
-          friction_ ? particles_.real("drag") : Field<double>(), {kind()}};
+          friction_ ? particles_.real("drag") : Field<double>(), {kind()}, walls_.has_value()};
 }
 
 template class Solver<1>;

@@ -8,6 +8,7 @@
 #include "kernels/swe/internal_force.hpp"
 #include "kernels/swe/motion.hpp"
 #include "kernels/swe/open_boundary.hpp"
+#include "kernels/swe/refinement.hpp"
 #include "src/method.hpp"
 
 namespace freshet::swe {
@@ -25,7 +26,9 @@ class Solver : public Method {
   void step(double t, double dt) override;
   FieldSet& fields() override { return particles_; }
   const FieldSet& fields() const override { return particles_; }
+  const Rows& rows() const override { return order_.rows(); }
   Totals totals() const override;
+  Mechanics mechanics() const override;
   StepReport report() const override { return report_; }
   std::vector<PointState> sample(const std::vector<Point>& points) const override;
   double highest_wet_bed(const Point& at, double radius, double min_depth) const override;
@@ -35,8 +38,11 @@ class Solver : public Method {
 
  private:
   void build_bed();
+  void build_friction();
   void build_walls();
   void build_boundaries();
+  void build_refinement();  // src/swe/refine.cpp
+  Function initial_depth() const;
   void fill_boundaries();
   void place_particles();
   void make_fields();
@@ -46,6 +52,7 @@ class Solver : public Method {
   std::optional<Bed<D>> bed() const;
   void find_neighbours();  // sorts and lists
   void list_neighbours();
+  void refine();  // splits and merges
   void close_density(double ahead);
   void evaluate(double kick_dt, double ahead);
   WallView<D> wall_view() const { return walls_ ? walls_->view() : WallView<D>{}; }
@@ -64,6 +71,7 @@ class Solver : public Method {
   std::optional<Friction> friction_;
   std::optional<Walls<D>> walls_;
   std::vector<OpenBoundary<D>> boundaries_;
+  std::optional<Refinement<D>> refinement_;
   StepReport report_;
   mutable OrderedSums sums_;
   double crossing_time_ = 0;  // s, least h / (c + signal)

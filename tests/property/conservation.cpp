@@ -99,6 +99,33 @@ TEST_CASE("conservation: the energy of an inviscid slosh, to the second order of
   CHECK(fine / finer == Approx(4).margin(0.8));
 }
 
+TEST_CASE("conservation: mechanics() is the sum over the particles, and its energy is kept by the variational form as well") {
+  Flow classical(slosh());
+  classical.many_steps(20);
+  const Mechanics m = classical.method->mechanics();
+  const Energy summed = energy(classical);
+  CHECK(m.kinetic == Approx(summed.kinetic).epsilon(1e-12));
+  CHECK(m.potential == Approx(summed.total - summed.kinetic).epsilon(1e-12));
+  CHECK(m.momentum[0] == Approx(momentum(classical, "u")).epsilon(1e-12));
+  CHECK(m.momentum[1] == Approx(momentum(classical, "v")).margin(1e-12 * momentum_size(classical)));
+
+  Scene scene = slosh();
+  scene.sph.acceleration = Acceleration::variational;
+  scene.bed.elevation = [](double x, double y) { return 0.4 * (x * x + y * y); };  // slopes to 0.6: v . grad b matters
+  scene.water.surface = [](double x, double) { return 0.3 + 0.1 * x; };
+  Flow flow(scene);
+  const Mechanics start = flow.method->mechanics();
+  double worst = 0, kinetic = 0, level = 0;
+  flow.run(2, [&] {
+    const Mechanics now = flow.method->mechanics();
+    worst = std::max(worst, std::abs(now.kinetic + now.potential - start.potential));
+    kinetic = std::max(kinetic, now.kinetic);
+    level = std::max(level, now.kinetic - energy(flow).kinetic);
+  });
+  CHECK(worst < 5e-3 * kinetic);    // the bound of the classical slosh above
+  CHECK(level > 2e-2 * kinetic);    // without the vertical velocity the sum would miss it
+}
+
 namespace {
 
 Scene lake(int dimension, double hump) {

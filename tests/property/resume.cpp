@@ -32,7 +32,9 @@ class Interrupted : public Method {
   }
   FieldSet& fields() override { return method_.fields(); }
   const FieldSet& fields() const override { return method_.fields(); }
+  const Rows& rows() const override { return method_.rows(); }
   Totals totals() const override { return method_.totals(); }
+  Mechanics mechanics() const override { return method_.mechanics(); }
   StepReport report() const override { return method_.report(); }
   std::vector<PointState> sample(const std::vector<Point>& points) const override {
     return method_.sample(points);
@@ -88,6 +90,12 @@ void require_same_results(const test::Scratch& a, const test::Scratch& b, const 
     CAPTURE(name);
     CHECK((left.at(name) == right.at(name)));  // in brackets: the values themselves would flood the report
   }
+  if (scene.rasters)
+    for (const char* file : {"times.csv", "front.csv", "depth_0001.asc", "max_depth.asc", "max_speed.asc", "max_depth_speed.asc",
+                             "arrival.asc", "last_wet.asc"}) {
+      CAPTURE(file);
+      CHECK((read_text(a / (std::string("rasters/") + file)) == read_text(b / (std::string("rasters/") + file))));
+    }
   if (!scene.gauges.empty()) CHECK((read_text(a / "gauges.csv") == read_text(b / "gauges.csv")));
   const auto steps = list_particle_steps(a / "particles.h5part");
   REQUIRE(steps.size() == list_particle_steps(b / "particles.h5part").size());
@@ -144,4 +152,37 @@ TEST_CASE("a wet dam break resumes to the bit") {
   scene.gauges = {gauge};
   scene.output.gauges_every = 0.7;
   check_pieces(scene, make_method, GENERATE(5, 23));
+}
+
+TEST_CASE("a dam break that splits and merges resumes to the bit") {
+  const Scene scene = read_scene("cases/dam_break_dry_strip.toml",
+                                 {"water.spacing=20", "time.end=24", "split.area=1.5", "split.velocity=linear",
+                                  "merge.area=0.35", "output.every=5"});
+  const auto method = make_method(scene);
+  for (double t = 0; t < 24;) {
+    const double dt = method->stable_dt();
+    method->step(t, dt);
+    t += dt;
+  }
+  REQUIRE(method->scalars().at("refinement")[0] > 50);
+  REQUIRE(method->scalars().at("refinement")[1] > 10);
+  check_pieces(scene, make_method, GENERATE(5, 13));
+}
+
+TEST_CASE("rasters and their maxima resume to the bit") {
+  Scene scene;
+  scene.name = "drop";
+  scene.text = "name = \"drop\"\n";
+  scene.end_time = 0.2;
+  scene.domain = {2, {-1, -1}, {1, 1}};
+  scene.water.spacing = 0.05;
+  scene.water.depth = [](double x, double y) { return 0.5 - x * x - y * y; };
+  scene.water.wet_above = 0.05;
+  Rasters rasters;
+  rasters.spacing = 0.07;
+  rasters.every = 0.06;
+  rasters.what = {Rasters::Quantity::depth};
+  rasters.maxima = true;
+  scene.rasters = rasters;
+  check_pieces(scene, make_method, GENERATE(1, 6));
 }

@@ -1,48 +1,19 @@
 // What a scene does not name is neither launched nor allocated.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <string>
 
+#include "tests/support/recording.hpp"
 #include "tests/support/scenes.hpp"
 
 using namespace freshet;
 using test::Flow;
+using test::Recording;
 
 namespace {
-
-std::vector<std::string>* launched = nullptr;
-std::vector<std::string>* allocated = nullptr;
-
-// Records the labels of launches and allocations through Kokkos' tool callbacks for the length of a scope.
-class Recording {
- public:
-  std::vector<std::string> launches, allocations;
-
-  Recording() {
-    launched = &launches, allocated = &allocations;
-    const auto launch = [](const char* label, const uint32_t, uint64_t*) { launched->push_back(label); };
-    set_launch(launch);
-    Kokkos::Tools::Experimental::set_allocate_data_callback(
-        [](const Kokkos::Profiling::SpaceHandle, const char* label, const void*, const uint64_t) { allocated->push_back(label); });
-  }
-  ~Recording() {
-    set_launch(nullptr);
-    Kokkos::Tools::Experimental::set_allocate_data_callback(nullptr);
-  }
-  Recording(const Recording&) = delete;
-  Recording& operator=(const Recording&) = delete;
-
-  std::set<std::string> labels() const { return {launches.begin(), launches.end()}; }
-
- private:
-  static void set_launch(void (*callback)(const char*, const uint32_t, uint64_t*)) {
-    Kokkos::Tools::Experimental::set_begin_parallel_for_callback(callback);
-    Kokkos::Tools::Experimental::set_begin_parallel_reduce_callback(callback);
-    Kokkos::Tools::Experimental::set_begin_parallel_scan_callback(callback);
-  }
-};
 
 // A drop that spreads: flat, frictionless, without walls and boundaries.
 Scene drop() {
@@ -203,6 +174,55 @@ TEST_CASE("skips: launches come with the features that need them") {
     CAPTURE(label);
     CHECK(label.substr(0, 6) == "open::");
   }
+}
+
+TEST_CASE("skips: splitting and merging need no field, and where nothing is to do few launches and no memory") {
+  Scene scene = drop();
+  const Names bare = field_names(scene);
+  scene.split = Split{};
+  scene.split->alpha = 0.92, scene.split->eps = 0.36;
+  scene.split->area.elsewhere = 1e3;
+  CHECK(field_names(scene) == bare);
+  CHECK(extra_labels(scene) == Names{"split::choose", "refine::relax"});
+  scene.split.reset();
+  scene.merge = Merge{};
+  scene.merge->area.elsewhere = 1e-3;
+  CHECK(field_names(scene) == bare);
+  CHECK(extra_labels(scene) == Names{"merge::eligible", "merge::choose", "merge::join", "refine::relax"});
+  Flow flow(scene);
+  flow.many_steps(3);
+  const Recording recording;
+  flow.many_steps(3);
+  CHECK(recording.allocations == std::vector<std::string>{});
+}
+
+TEST_CASE("skips: one number for Manning's n makes no table, a map makes one and adds no launch") {
+  Scene scene = drop();
+  scene.manning = 0.03;
+  const auto tables = [](const Scene& of) {
+    const Recording recording;
+    const Flow flow(of);
+    return std::count(recording.allocations.begin(), recording.allocations.end(), "ground.table");
+  };
+  CHECK(tables(scene) == 0);
+  scene.manning->map = [](double x, double) { return x < 0 ? 0.02 : 0.05; };
+  scene.manning->step = {0.05, 0.05};
+  CHECK(tables(scene) == 1);
+  CHECK(extra_labels(scene) == Names{});
+}
+
+TEST_CASE("skips: the curvature of a bed is looked up only where it matters") {
+  Scene scene = drop();
+  const auto described = [&](double slope, Acceleration acceleration) {
+    scene.sph.acceleration = acceleration;
+    scene.bed.elevation = [slope](double x, double) { return slope * std::sin(x); };
+    const Flow flow(scene);
+    const auto names = flow.method->features();
+    return std::count(names.begin(), names.end(), "bed, variational acceleration") == 1;
+  };
+  CHECK(described(0.1, Acceleration::variational));
+  CHECK_FALSE(described(0.1, Acceleration::classical));
+  CHECK_FALSE(described(0.9e-3, Acceleration::variational));
 }
 
 TEST_CASE("skips: no roughness is no friction to the bit") {

@@ -152,6 +152,10 @@ TEST_CASE("threads: one and two give the same bytes: Thacker") {
   check_threads({"cases/thacker.toml", "water.spacing=200", "time.end=300"});
 }
 
+TEST_CASE("threads: one and two give the same bytes: splitting and merging") {
+  check_threads({"cases/dam_break_dry_strip.toml", "time.end=15", "split.area=1.5", "merge.area=0.35"});
+}
+
 TEST_CASE("threads: one and two give the same bytes: open channel") {
   const test::Scratch scratch;
   check_threads({channel(scratch, 10)});

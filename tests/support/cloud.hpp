@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "kernels/swe/density.hpp"
+#include "kernels/swe/depth_gradient.hpp"
 #include "kernels/swe/internal_force.hpp"
 
 namespace freshet::test {
@@ -168,6 +169,7 @@ class Cloud {
     p.rate = fields.real("depth_rate"), p.growth = fields.real("depth_growth"), p.h = fields.real("h"), p.inv_h = fields.real("inv_h");
     p.pressure = fields.real("pressure"), p.celerity = fields.real("celerity"), p.weight = fields.real("weight");
     p.signal = fields.real("signal"), p.id = fields.integer("id");
+    p.depth_slope = vector_field<D>(fields, "slope_x", "slope_y");
     if constexpr (D == 1)
       p.strain = {fields.real("strain_xx")};
     else
@@ -198,6 +200,7 @@ class Cloud {
   }
 
   void force(const swe::AnyStabilisation& stabilise) {
+    swe::find_depth_gradient<D>(kernel, clusters, neighbours.view(), bind());
     swe::internal_force<D>(kernel, clusters, neighbours.view(), wall_view(), bind(), stabilise);
   }
 
@@ -216,7 +219,7 @@ class Cloud {
     for (const char* name : {"x", "y", "u", "v", "u_pred", "v_pred", "mass", "h0", "kh", "depth", "h"})
       fields.real(name, "1", Carry::sort);
     for (const char* name : {"ax", "ay", "tx", "ty", "depth_rate", "depth_growth", "inv_h", "pressure", "celerity", "weight", "signal",
-                             "strain_xx", "strain_xy", "strain_yy"})
+                             "strain_xx", "strain_xy", "strain_yy", "slope_x", "slope_y"})
       fields.real(name, "1", Carry::no);
     fields.integer("id", "1", Carry::sort);
   }

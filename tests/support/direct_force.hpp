@@ -9,7 +9,9 @@ namespace freshet::test {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-enum class Flux { none, lax_friedrichs, muscl };
+enum class Flux { none, lax_friedrichs, muscl, viscosity, two_shock, two_shock_muscl };
+inline bool reconstructs(Flux flux) { return flux == Flux::muscl || flux == Flux::two_shock_muscl; }
+inline bool riemann(Flux flux) { return flux == Flux::two_shock || flux == Flux::two_shock_muscl; }
 
 // Everything of the direct sum, by id. h and rho are the solver's (unit/density.cpp), the rest is made here.
 struct Direct {
@@ -21,6 +23,7 @@ struct Direct {
   std::vector<Grain> grains;
   std::vector<double> h, rho, alpha;
   std::vector<Matrix2d> gradient;  // [row] of v, [column] by x
+  std::vector<Vector2d> depth_gradient;
 
   Vector2d x(size_t i) const { return {grains[i].x[0], grains[i].x[1]}; }
   Vector2d v(size_t i) const { return {grains[i].v[0], grains[i].v[1]}; }
@@ -63,14 +66,58 @@ inline double limiter(double ratio) { return std::max(0.0, std::min(1.0, ratio))
 inline double normal_jump(const Direct& s, size_t i, size_t j) {
   const Vector2d x_ij = s.x(i) - s.x(j), n = x_ij.normalized();
   const double f_ij = (s.v(i) - s.v(j)).dot(n);
-  if (s.flux != Flux::muscl || f_ij == 0) return f_ij;
+  if (!reconstructs(s.flux) || f_ij == 0) return f_ij;
   const double plus = n.dot(s.gradient[j] * x_ij) / f_ij, minus = n.dot(s.gradient[i] * x_ij) / f_ij;
   const double left = s.v(j).dot(n) + limiter(plus) * f_ij / 2, right = s.v(i).dot(n) - limiter(minus) * f_ij / 2;
   return right - left;
 }
 
+// sum m_j (rho_j - rho_i) G_ij L
+inline Vector2d direct_depth_gradient(const Direct& s, size_t i) {
+  Vector2d of_rho = Vector2d::Zero();
+  Matrix2d of_x = Matrix2d::Zero();
+  for (size_t j = 0; j < s.grains.size(); ++j) {
+    const Vector2d weight = s.grains[j].m * s.slope(i, j, s.h[i]);
+    of_rho += (s.rho[j] - s.rho[i]) * weight;
+    of_x += (s.x(j) - s.x(i)) * weight.transpose();
+  }
+  if (s.dimension == 1) return {of_rho.x() / of_x(0, 0), 0};
+  const double half = 0.5 * of_x.trace();
+  if (of_x.determinant() <= 0.15 * half * half) return Vector2d::Zero();
+  return of_x.transpose().inverse() * of_rho;
+}
+
+// d* of Toro's two-shock solver on the two-rarefaction estimate (2.56), left = j, right = i; the reconstructed states with
+// the ratio form of the limiter as the thesis prints it (2.57).
+inline double direct_two_shock(const Direct& s, size_t i, size_t j) {
+  const Vector2d x_ij = s.x(i) - s.x(j);
+  double left = s.rho[j], right = s.rho[i];
+  const double f = right - left;
+  if (s.flux == Flux::two_shock_muscl && f != 0) {
+    const double plus = s.depth_gradient[j].dot(x_ij) / f, minus = s.depth_gradient[i].dot(x_ij) / f;
+    left += limiter(plus) * f / 2;
+    right -= limiter(minus) * f / 2;
+  }
+  const double u_lr = i == j ? 0 : -normal_jump(s, i, j), g = s.gravity;
+  const double c0 = 0.5 * (std::sqrt(g * left) + std::sqrt(g * right)) + 0.25 * u_lr;
+  if (c0 <= 0) return 0;
+  const double d0 = c0 * c0 / g, g_l = std::sqrt(g * (d0 + left) / (2 * d0 * left)), g_r = std::sqrt(g * (d0 + right) / (2 * d0 * right));
+  return std::max(0.0, (g_l * left + g_r * right + u_lr) / (g_l + g_r));
+}
+
+// Artificial viscosity (2.53), corrected: approaching pairs, mean rho, c, h; a = strength, b = 2.
+inline double direct_viscosity(const Direct& s, size_t i, size_t j) {
+  const Vector2d x_ij = s.x(i) - s.x(j);
+  const double closing = (s.v(i) - s.v(j)).dot(x_ij), h = 0.5 * (s.h[i] + s.h[j]), rho = 0.5 * (s.rho[i] + s.rho[j]);
+  if (closing >= 0) return 0;
+  const double mu = h * closing / (x_ij.squaredNorm() + 0.01 * h * h);
+  const double c = 0.5 * (std::sqrt(s.gravity * s.rho[i]) + std::sqrt(s.gravity * s.rho[j]));
+  return (-s.strength * c * mu + 2 * mu * mu) / rho;
+}
+
 inline double direct_pi(const Direct& s, size_t i, size_t j) {
-  if (s.flux == Flux::none || i == j) return 0;
+  if (s.flux == Flux::none || riemann(s.flux) || i == j) return 0;
+  if (s.flux == Flux::viscosity) return direct_viscosity(s, i, j);
   const double celerity = 0.5 * (std::sqrt(s.gravity * s.rho[i]) + std::sqrt(s.gravity * s.rho[j]));
   return -s.strength * celerity * normal_jump(s, i, j) / (0.5 * (s.rho[i] + s.rho[j]));
 }
@@ -79,9 +126,12 @@ inline double direct_pi(const Direct& s, size_t i, size_t j) {
 inline Vector2d direct_force(const Direct& s, size_t i) {
   Vector2d t(0, 0);
   for (size_t j = 0; j < s.grains.size(); ++j) {
-    const double half_pi = 0.5 * direct_pi(s, i, j);
-    t += s.grains[j].m * ((s.gravity / (2 * s.alpha[i]) + half_pi) * s.slope(i, j, s.h[i]) +
-                          (s.gravity / (2 * s.alpha[j]) + half_pi) * s.slope(i, j, s.h[j]));
+    const double half_pi = 0.5 * direct_pi(s, i, j), star = riemann(s.flux) ? direct_two_shock(s, i, j) : 0;
+    const auto pressure = [&](size_t k) {  // p / (rho^2 alpha), at the pair's contact with p* = g d*^2 / 2
+      const double share = riemann(s.flux) ? star * star / (s.rho[k] * s.rho[k]) : 1;
+      return share * s.gravity / (2 * s.alpha[k]) + half_pi;
+    };
+    t += s.grains[j].m * (pressure(i) * s.slope(i, j, s.h[i]) + pressure(j) * s.slope(i, j, s.h[j]));
   }
   return t;
 }

@@ -1,4 +1,4 @@
-// Runs one of the scenes in cases/ to its end, as the program does, and returns its summary.
+// Runs one of the scenes in cases/ to its end, as the program does, and returns its summary and its water.
 #pragma once
 #include <cstdlib>
 #include <filesystem>
@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "build_info.hpp"
+#include "src/io/fluid.hpp"
 #include "src/method.hpp"
 #include "src/run/driver.hpp"
+#include "src/run/gauge_stats.hpp"
 #include "src/scene/read.hpp"
 #include "tests/support/scratch.hpp"
 
@@ -17,7 +19,22 @@ inline Scene read_case(const std::string& name, const std::vector<std::string>& 
   return read_scene(std::string(build::source_dir) + "/cases/" + name + ".toml", overrides);
 }
 
-inline Summary run_case(const std::string& name, const std::vector<std::string>& overrides = {}) {
+struct CaseRun {
+  Summary summary;
+  std::vector<Series> gauges;  // m, elevations in the order of the scene
+  Fluid fluid;                 // at the end
+  ScalarState scalars;         // likewise
+
+  template <class Where>
+  double mass_where(const Where& where) const {  // m3
+    double sum = 0;
+    for (std::size_t i = 0; i < fluid.size(); ++i)
+      if (where(fluid.x[i], fluid.y[i])) sum += fluid.mass[i];
+    return sum;
+  }
+};
+
+inline CaseRun finish_case(const std::string& name, const std::vector<std::string>& overrides = {}) {
   const Scratch scratch;
   const Scene scene = read_case(name, overrides);
   const auto method = make_method(scene);
@@ -26,7 +43,13 @@ inline Summary run_case(const std::string& name, const std::vector<std::string>&
   Driver driver(scene, *method, options);
   driver.begin();
   driver.run();
-  return driver.summary();
+  CaseRun run{driver.summary(), {}, fluid_on_host(method->fields()), method->scalars()};
+  for (std::size_t g = 0; g < scene.gauges.size(); ++g) run.gauges.push_back(gauge_series(driver.gauge_rows(), g));
+  return run;
+}
+
+inline Summary run_case(const std::string& name, const std::vector<std::string>& overrides = {}) {
+  return finish_case(name, overrides).summary;
 }
 
 // Whether the Okushiri benchmark's files are where a scene would find them.

@@ -189,3 +189,22 @@ TEST_CASE("bed: without a filter it passes through its bottom particles") {
   CHECK(bed.range()[0] < -0.9);
   CHECK(bed.range()[1] > 0.9);
 }
+
+TEST_CASE("bed: level and slope without the curvature are those with it") {
+  const auto level = [](double x, double y) { return std::sin(3 * x) * std::cos(2 * y); };
+  const auto bed = spline<2>(level);
+  const auto line = spline<1>(level);
+  test::Random random(7);
+  double worst = 0, steepest = 0;
+  for (int k = 0; k < 200; ++k) {
+    const double x = random(low, high), y = random(low, high);
+    const auto full = bed.at(at_2d(x, y)), part = bed.sloped_at(at_2d(x, y));
+    worst = std::max({worst, std::abs(full.b - part.b), std::abs(full.slope.x - part.slope.x), std::abs(full.slope.y - part.slope.y)});
+    worst = std::max(worst, std::abs(line.at(at_1d(x)).slope.x - line.sloped_at(at_1d(x)).slope.x));
+    CHECK((part.curvature.xx == 0 && part.curvature.xy == 0 && part.curvature.yy == 0));
+    steepest = std::max(steepest, std::sqrt(dot(full.slope, full.slope)));
+  }
+  CHECK(worst < 1e-14);  // the same sums, perhaps in another order
+  CHECK(bed.steepest() >= steepest);
+  CHECK(bed.steepest() < 1.2 * std::hypot(3, 2));  // the largest slopes along each axis, 3 and 2, met at different places
+}

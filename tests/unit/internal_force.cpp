@@ -18,15 +18,21 @@ constexpr double g = 9.81;  // m/s2
 
 template <int D>
 Direct direct(const Cloud<D>& cloud, const std::vector<Grain>& grains, Flux flux, double strength) {
-  Direct s{D, g, flux, strength, test::tight(D).bounds, grains, cloud.by_id("h"), cloud.by_id("depth"), {}, {}};
+  Direct s{D, g, flux, strength, test::tight(D).bounds, grains, cloud.by_id("h"), cloud.by_id("depth"), {}, {}, {}};
   for (size_t i = 0; i < grains.size(); ++i) s.alpha.push_back(test::direct_alpha(s, i));
-  for (size_t i = 0; i < grains.size(); ++i) s.gradient.push_back(test::direct_gradient(s, i));
+  for (size_t i = 0; i < grains.size(); ++i) {
+    s.gradient.push_back(test::direct_gradient(s, i));
+    s.depth_gradient.push_back(test::direct_depth_gradient(s, i));
+  }
   return s;
 }
 
 swe::AnyStabilisation stabilisation(Flux flux, double strength) {
   if (flux == Flux::lax_friedrichs) return swe::LaxFriedrichs{strength};
   if (flux == Flux::muscl) return swe::LaxFriedrichsMuscl{strength};
+  if (flux == Flux::viscosity) return swe::ArtificialViscosity{strength, 2};
+  if (flux == Flux::two_shock) return swe::TwoShock{g};
+  if (flux == Flux::two_shock_muscl) return swe::TwoShockMuscl{g};
   return swe::NoStabilisation{};
 }
 
@@ -54,7 +60,7 @@ void check_force(Flux flux, unsigned seed) {
 }  // namespace
 
 TEST_CASE("force: the direct sum over all pairs") {
-  const Flux flux = GENERATE(Flux::none, Flux::lax_friedrichs, Flux::muscl);
+  const Flux flux = GENERATE(Flux::none, Flux::lax_friedrichs, Flux::muscl, Flux::viscosity, Flux::two_shock, Flux::two_shock_muscl);
   for (const unsigned seed : {1u, 2u}) {
     check_force<1>(flux, seed);
     check_force<2>(flux, seed);

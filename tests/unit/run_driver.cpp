@@ -63,6 +63,41 @@ TEST_CASE("a scene without an output interval writes its first and last state") 
   CHECK(output_times(scratch) == std::vector<double>{0, 1});
 }
 
+TEST_CASE("all errors are taken at the times that the scene names, before and after a restart") {
+  const test::Scratch scratch;
+  Scene scene = test::fake_scene(1);
+  scene.compare.exact = std::make_shared<Still>();
+  scene.compare.times = {0.3, 0.6, 1};
+  std::atomic<bool> stop{false};
+  const auto finish = [&](const std::string& directory, bool interrupted) {
+    fs::create_directories(directory);
+    test::FakeMethod method(scene);
+    Driver driver(scene, method, {directory, nullptr, false, interrupted ? &stop : nullptr});
+    if (interrupted) method.on_step = [&](long step) { stop = step == 30; };
+    driver.begin();
+    CHECK(driver.run() == !interrupted);
+    return driver.summary();
+  };
+  const Summary whole = finish(scratch / "whole", false);
+  REQUIRE(whole.errors_at.size() == 3);
+  CHECK(whole.errors_at[1].t == 0.6);
+  CHECK(whole.errors_at[2].errors.depth_l2_rel == whole.errors.depth_l2_rel);
+  CHECK(whole.errors_at[0].errors.depth_l2_rel != whole.errors_at[1].errors.depth_l2_rel);
+
+  const Summary half = finish(scratch / "half", true);
+  REQUIRE(half.errors_at.size() == 1);
+  test::FakeMethod method(scene);
+  const Checkpoint checkpoint = read_checkpoint(scratch / "half/state.h5");
+  read_checkpoint_fields(scratch / "half/state.h5", method.fields());
+  method.restore(checkpoint.method);
+  Driver driver(scene, method, {scratch / "half"});
+  driver.restore(checkpoint);
+  CHECK(driver.run());
+  REQUIRE(driver.summary().errors_at.size() == 3);
+  for (std::size_t k = 0; k < 3; ++k)
+    CHECK(driver.summary().errors_at[k].errors.depth_l2_rel == whole.errors_at[k].errors.depth_l2_rel);
+}
+
 TEST_CASE("depth_l1_rel is the median over the comparison times") {
   const test::Scratch scratch;
   Scene scene = test::fake_scene(1);

@@ -1,0 +1,15 @@
+// Parts of the domain that a table of the scene names by `box` or `polygon`.
+#pragma once
+#include <vector>
+
+#include "src/scene/table.hpp"
+
+namespace freshet::input {
+
+// The corners of `box = [x0, y0, x1, y1]` or `polygon = [[x, y], ...]`; 1-D: both ends of `box = [x0, x1]`. Empty after an error.
+std::vector<Point> read_region(Table& region, int dimension);
+
+// Even-odd rule; the last corner is joined to the first.
+bool encloses(const std::vector<Point>& polygon, const Point& p);
+
+}  // namespace freshet::input

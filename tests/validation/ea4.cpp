@@ -1,0 +1,23 @@
+// EA test 4, a breach on to a flat plain, against the DG2 solution of LISFLOOD-FP 8.
+#include <catch2/catch.hpp>
+
+#include "tests/support/data.hpp"
+#include "tests/support/run_case.hpp"
+
+using namespace freshet;
+
+TEST_CASE("EA test 4: the front of a breach crosses a plain in time and leaves the right depths", "[ea4][long]") {
+  if (!test::data_file("ea_tests/test4/ea4-5m-dg2_subset.csv")) return;
+  const Scene scene = test::read_case("ea4");
+  const test::CaseRun run = test::finish_case("ea4");
+  REQUIRE(run.gauges.size() == 6);
+  for (std::size_t g = 0; g < run.gauges.size(); ++g) {
+    CAPTURE(scene.gauges[g].name);
+    const GaugeResult& result = run.summary.gauges[g];
+    // Issue 3: 0.02 m at 7200 s; first depth above 0.01 m within 3 min.
+    CHECK(run.gauges[g].at(7200) == Approx(scene.gauges[g].measured->at(7200)).margin(0.02));
+    CHECK(result.arrival == Approx(result.measured_arrival).margin(180));
+  }
+  CHECK(run.summary.mass.inflow == Approx(33000 + 3600 * 20).epsilon(0.005));  // m3, the hydrograph's to 7200 s
+  CHECK(run.summary.mass.relative_error <= 1e-10);
+}
