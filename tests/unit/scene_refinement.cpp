@@ -12,7 +12,7 @@ namespace {
 
 const std::string canal = "[domain]\nbox = [0, 10]\n[water]\nsurface = 1\nspacing = 0.5\n[time]\nend = 10\n";
 
-bool says(const std::string& message, const std::string& words) { return message.find(words) != std::string::npos; }
+bool says(const freshet::test::Failure& failed, const std::string& words) { return failed.text.find(words) != std::string::npos; }
 
 }  // namespace
 
