@@ -23,7 +23,7 @@ test::ChannelFlow finite_volumes(const Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("EA test 3: momentum carries water over the crest", "[ea3]") {
+TEST_CASE("EA test 3: momentum carries water over the crest", "[ea3][long]") {
   if (!test::data_file("ea_tests/test3/test3DEM.asc")) return;
   const Scene scene = test::read_case("ea3");
   const test::ChannelFlow reference = finite_volumes(scene);
