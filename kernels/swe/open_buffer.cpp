@@ -27,7 +27,8 @@ struct Exterior {
   KOKKOS_INLINE_FUNCTION double depth(const OpenRow& row, const Vec<double, D>& x, double inside) const {
     double d = row.depth + row.bed - bed_at<D>(bed, x);
     if (friction) {
-      const double fall = friction->drag(larger(row.depth, least)) / friction->gravity * row.inward * larger(row.inward, -row.inward);
+      const double u = row.inward;
+      const double fall = friction->drag(larger(row.depth, least)) / friction->gravity * u * larger(u, -u);
       d -= clamp(fall * inside, -0.2 * row.depth, 0.2 * row.depth);
     }
     return larger(larger(d, 0.2 * row.depth), least);
@@ -148,7 +149,8 @@ Crossed OpenBuffer<D>::convert(FieldSet& particles, const Particles<D>& p, const
   const Exterior<D> exterior{bed, options_.friction, least_depth()};
   const Particles<D> f = p;
   const Field<int> kind = particles.integer("kind");
-  const double trim = 0.75 * options_.spacing, cut = 0.25 * options_.spacing, deepest = 2 * buffer_, summed = options_.summed;
+  const double trim = 0.75 * options_.spacing, cut = 0.25 * options_.spacing, reach = 1.25 * options_.support;
+  const double deepest = 2 * buffer_, summed = options_.summed;
   const int owner = owner_;
   const auto crossed = sums_.template sum<2>("open::convert", particles.size(), KOKKOS_LAMBDA(int i) {
         Kokkos::Array<double, 2> in_out{};
@@ -187,7 +189,8 @@ Crossed OpenBuffer<D>::convert(FieldSet& particles, const Particles<D>& p, const
         put(f.v_pred, i, exterior.velocity(state, at_line.line));
         const Extent part = extent(r);
         const bool short_of = !at_line.on_line(r) && -inside < part.from + cut;
-        if (-inside > part.to + trim || short_of || !at_line.beside(x, 1)) f.id(i) = -1;
+        // Water that left stretched stands in fewer, longer particles: they must still fill the support of what follows.
+        if (-inside > larger(part.to + trim, reach * f.h(i)) || short_of || !at_line.beside(x, 1)) f.id(i) = -1;
         return in_out;
       });
   return {crossed[0], crossed[1]};

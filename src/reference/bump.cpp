@@ -56,7 +56,9 @@ double SteadyBumpFlow::momentum(double depth) const {
 }
 
 void SteadyBumpFlow::find_jump() {
-  const auto excess = [&](double x) { return momentum(depth(x, head_behind_, false)) - momentum(depth(x, head_, true)); };
+  const auto excess = [&](double x) {
+    return momentum(depth(x, head_behind_, false)) - momentum(depth(x, head_, true));
+  };
   const double foot = bump_.centre + bump_.half_width;
   if (head_behind_ >= head_ || excess(foot) <= 0) return;  // drowned, or swept off the bump
   // The subcritical side exists where its energy reaches over the bed.

@@ -8,7 +8,7 @@
 
 namespace freshet {
 
-// The norms of the particles below at one time, of those inside scene.compare.where.
+// The two below together, over the particles inside scene.compare.where.
 ErrorNorms error_norms(const Scene& scene, const Fluid& fluid, double t);
 
 // sqrt(sum (d - d_e)^2 / sum d_e^2) over the particles; likewise their largest |d - d_e| [m] and rms |v -

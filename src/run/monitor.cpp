@@ -14,13 +14,17 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double margin_in_h =
     4;  // a few smoothing lengths: walls act within 2 h, so a particle beyond is lost
-constexpr double buffer_in_dx = 6;  // depth of an open boundary's buffer outside the domain
+constexpr double buffer_in_dx = 6;   // depth of an open boundary's buffer outside the domain, or where particles are longer
+constexpr double buffer_in_h = 2.5;  // than the first, in their h
 
 Allowed allowed_in(const Scene& scene) {
   const double dx = scene.water.spacing;
-  double buffer = 0;
-  for (const OpenBoundary& b : scene.boundaries) buffer = std::max(buffer, buffer_in_dx * std::max(dx, b.spacing));
-  const double margin = margin_in_h * scene.sph.eta * dx + buffer;
+  const double near = margin_in_h * scene.sph.eta * dx;
+  double margin = near;
+  for (const OpenBoundary& b : scene.boundaries) {
+    const double spacing = std::max(dx, b.spacing), longest = scene.sph.h_cap * scene.sph.eta * spacing;
+    margin = std::max({margin, near + buffer_in_dx * spacing, buffer_in_h * longest + spacing});
+  }
   const Point low = scene.domain.low, high = scene.domain.high;
   const bool flat = scene.domain.dimension == 1;
   return {low[0] - margin,

@@ -1,6 +1,7 @@
 // [compare]: the exact solution and how the errors against it are measured.
 #include <cmath>
 
+#include "src/reference/beach.hpp"
 #include "src/reference/bump.hpp"
 #include "src/reference/exact.hpp"
 #include "src/reference/radial.hpp"
@@ -90,6 +91,18 @@ Solution read_radial_dam(Table& table, const Scene& scene) {
           shown(dam.inner) + " m within " + shown(dam.radius) + " m, " + shown(dam.outer) + " m outside"};
 }
 
+Solution read_beach(Table& table, const Scene& scene) {
+  Beach beach{};
+  beach.slope = table.number("slope").positive().required(0.1);
+  beach.length = table.number("length", "m").positive().required(1);
+  Value<std::vector<double>> humps = table.numbers("humps", "numbers, three to a hump: height, steepness, place");
+  const std::vector<double> given = humps.required();
+  if (given.size() % 3 != 0) humps.fail("'compare.exact.humps' has " + std::to_string(given.size()) + " numbers; each hump has three");
+  for (std::size_t k = 0; k + 2 < given.size(); k += 3) beach.humps.push_back({given[k], given[k + 1], given[k + 2]});
+  return {beach_wave(beach, scene.gravity),
+          std::to_string(beach.humps.size()) + " humps on a slope of " + shown(beach.slope) + ", length " + shown(beach.length) + " m"};
+}
+
 Solution read_bump(Table& table, const Scene& scene) {
   const Bump bump{table.number("height", "m").positive().required(1), table.number("at", "m").required(),
                   table.number("half_width", "m").positive().required(1)};
@@ -109,6 +122,7 @@ Solution read_exact(Table& table, const Scene& scene) {
                                                      {"thacker-planar", read_planar},
                                                      {"thacker-radial", read_radial},
                                                      {"radial-dam-break", read_radial_dam},
+                                                     {"beach-wave", read_beach},
                                                      {"rest", read_rest},
                                                      {"bump", read_bump}})
                             .required();

@@ -120,6 +120,12 @@ std::string numerics(const Scene& scene) {
                                                             : ", variational acceleration");
 }
 
+std::string area(const AreaLimit& limit) {
+  std::string out = limit.elsewhere ? brief(*limit.elsewhere) + " spacing^D" : "";
+  if (!limit.regions.empty()) out += (out.empty() ? "" : ", ") + counted(limit.regions.size(), "region");
+  return out;
+}
+
 std::string output(const Scene& scene) {
   const Output& output = scene.output;
   std::string out =
@@ -166,6 +172,8 @@ std::vector<std::string> describe(const Scene& scene) {
   for (const Transect& p : scene.profiles) add("profile", profile(p, scene.domain));
   add("time", "0 to " + brief(scene.end_time) + " s");
   add("method", numerics(scene));
+  if (scene.split) add("split", "into " + std::to_string(scene.split->into) + " from " + area(scene.split->area));
+  if (scene.merge) add("merge", "below " + area(scene.merge->area));
   add("output", output(scene));
   if (scene.rasters) add("raster", rasters(*scene.rasters));
   if (scene.compare.exact) add("compare", compare(scene.compare));

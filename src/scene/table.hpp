@@ -103,7 +103,7 @@ class Table {
   // Shapes.
   Value<std::vector<double>> numbers(const std::string& key, const std::string& what = "numbers");
   Value<Point> point(const std::string& key, int dimension = 2);  // [x, y]; 1-D: x or [x]
-  Value<std::vector<Point>> points(const std::string& key);       // [[x, y], ...]
+  Value<std::vector<Point>> points(const std::string& key);       // [[x, y], ...] or a file with a row x, y for each
   Value<Function> function(const std::string& key);               // a number or an expression in x and y
   Value<std::array<Function, 2>> velocity(const std::string& key, int dimension);
   Value<std::string> file(const std::string& key);  // absolute path of an existing file
@@ -138,6 +138,7 @@ class Table {
   Value<T> value(const std::string& key, std::optional<T> found, const std::string& hint = "") {
     return Value<T>(slot(key, hint), std::move(found));
   }
+  Value<std::vector<Point>> points_from_file(const std::string& key);
   void wrong_type(const std::string& key, const toml::node& node, const std::string& wanted) const;
   Place place_from(const toml::source_region& region) const;
   std::optional<Function> compiled(const toml::node& node, const std::string& path);

@@ -146,9 +146,30 @@ Value<Point> Table::point(const std::string& key, int dimension) {
   return value(key, found, wanted);
 }
 
+Value<std::vector<Point>> Table::points_from_file(const std::string& key) {
+  Value<std::string> path = file(key);
+  if (!path.optional()) return value<std::vector<Point>>(key, std::nullopt);
+  std::vector<Point> points;
+  try {
+    for_each_line(read_text(*path.optional()), [&](int number, const std::string& line) {
+      if (is_comment_or_empty(line)) return;
+      const std::vector<std::string> cells = split_cells(line);
+      Point p;
+      if (cells.size() >= 2 && parse_number(cells[0], p[0]) && parse_number(cells[1], p[1])) points.push_back(p);
+      else if (!points.empty() || number > 1)
+        throw BadData(at_line(*path.optional(), number) + ": this is not a point, x and y in m");
+    });
+  } catch (const BadData& bad) {
+    path.fail(bad.what(), bad.help, Blame::data);
+    return value<std::vector<Point>>(key, std::nullopt);
+  }
+  return value<std::vector<Point>>(key, points);
+}
+
 Value<std::vector<Point>> Table::points(const std::string& key) {
+  if (has_text(key)) return points_from_file(key);
   const toml::node* node = find(key);
-  const std::string wanted = "an array of points, [[x, y], ...] in m";
+  const std::string wanted = "an array of points, [[x, y], ...] in m, or the name of a file of them";
   std::optional<std::vector<Point>> found;
   if (node && node->is_array()) {
     found.emplace();

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -22,17 +21,21 @@ inline std::optional<std::string> data_file(const std::string& name) {
   return std::nullopt;
 }
 
-// The rows of a file that consist of numbers alone, parted by commas or blanks; other lines are passed over.
+// The rows of a file that consist of numbers alone (NaN is one), parted by commas or blanks; other lines are passed over.
 inline std::vector<std::vector<double>> number_rows(const std::string& path) {
   std::ifstream in(path);
   std::vector<std::vector<double>> rows;
   for (std::string line; std::getline(in, line);) {
     for (char& c : line)
       if (c == ',' || c == '\r') c = ' ';
-    std::istringstream text(line);
     std::vector<double> row;
-    for (double value; text >> value;) row.push_back(value);
-    if (text.eof() && !row.empty()) rows.push_back(row);
+    const char* at = line.c_str();
+    for (char* end = nullptr;; at = end) {
+      const double value = std::strtod(at, &end);
+      if (end == at) break;
+      row.push_back(value);
+    }
+    if (!row.empty() && std::string(at).find_first_not_of(" \t") == std::string::npos) rows.push_back(row);
   }
   return rows;
 }

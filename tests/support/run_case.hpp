@@ -23,6 +23,7 @@ struct CaseRun {
   Summary summary;
   std::vector<Series> gauges;  // m, elevations in the order of the scene
   Fluid fluid;                 // at the end
+  ScalarState scalars;         // likewise
 
   template <class Where>
   double mass_where(const Where& where) const {  // m3
@@ -42,7 +43,7 @@ inline CaseRun finish_case(const std::string& name, const std::vector<std::strin
   Driver driver(scene, *method, options);
   driver.begin();
   driver.run();
-  CaseRun run{driver.summary(), {}, fluid_on_host(method->fields())};
+  CaseRun run{driver.summary(), {}, fluid_on_host(method->fields()), method->scalars()};
   for (std::size_t g = 0; g < scene.gauges.size(); ++g) run.gauges.push_back(gauge_series(driver.gauge_rows(), g));
   return run;
 }

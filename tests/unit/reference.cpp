@@ -1,5 +1,6 @@
 // Exact solutions against the shallow-water equations themselves, by central differences.
 #include "src/reference/exact.hpp"
+#include "src/reference/ritter.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -161,4 +162,25 @@ TEST_CASE("Still water lies level over its bed") {
   CHECK(exact->at(0.2, 0, 7).u == 0);
   CHECK(exact->at(0.8, 0, 7).depth == 0);
   CHECK(still_water(0.5, {})->at(3, 3, 0).depth == 0.5);
+}
+
+TEST_CASE("Ritter: mass is conserved, the equations hold, the tip is dry") {
+  const auto exact = ritter(10, 100, 9.81);
+  const double t = 7, c = std::sqrt(98.1);
+  double mass = 0;
+  for (int k = 0; k < 40000; ++k) mass += 0.01 * exact->at((k + 0.5) * 0.01, 0, t).depth;
+  CHECK(mass == Approx(1000).epsilon(1e-6));
+  CHECK(exact->at(100, 0, t).depth == Approx(4.0 / 9 * 10));
+  CHECK(exact->at(100, 0, t).u == Approx(2.0 / 3 * c));
+  CHECK(exact->at(100 + 2.01 * c * t, 0, t).depth == 0);
+  CHECK(exact->at(99 - c * t, 0, t).depth == 10);
+  CHECK(exact->at(99, 0, 0).depth == 10);
+  CHECK(exact->at(101, 0, 0).depth == 0);
+  const double x = 130, e = 1e-4;
+  const auto at = [&](double dx, double dt) { return exact->at(x + dx, 0, t + dt); };
+  const double d_t = (at(0, e).depth - at(0, -e).depth) / (2 * e), u_t = (at(0, e).u - at(0, -e).u) / (2 * e);
+  const auto flux = [&](double dx) { return at(dx, 0).depth * at(dx, 0).u; };
+  CHECK(d_t + (flux(e) - flux(-e)) / (2 * e) == Approx(0).margin(1e-6));
+  const double slope = (at(e, 0).depth - at(-e, 0).depth) / (2 * e), shear = (at(e, 0).u - at(-e, 0).u) / (2 * e);
+  CHECK(u_t + at(0, 0).u * shear + 9.81 * slope == Approx(0).margin(1e-6));
 }

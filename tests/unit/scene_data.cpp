@@ -346,3 +346,21 @@ TEST_CASE("Profiles that cannot be taken are errors") {
   CHECK_THAT(error("line = [[0, 1], [5, 1]]\ntime = 11\n"), Catch::Contains("it must be at most time.end (10)"));
   CHECK_THAT(error("line = [[0, 1], [5, 1]]\n"), Catch::Contains("time"));
 }
+
+TEST_CASE("Points may come from a file, with or without a title") {
+  const Directory here;
+  here.write("house.csv", std::string(GENERATE("", "x,y\n")) + "2.0,1.0\n4,1\n\n4,3\n");
+  const Scene scene = read_in(here, pond("[[wall]]\npolygon = \"house.csv\"\nwater = \"outside\"\n"));
+  REQUIRE(scene.walls.size() == 1);
+  CHECK(scene.walls[0].line == std::vector<Point>{{2, 1}, {4, 3}, {4, 1}, {2, 1}});  // clockwise: the water is on its left
+  CHECK(scene.text.find(here.path() + "/house.csv") != std::string::npos);           // so that a resume finds it
+}
+
+TEST_CASE("A file of points with anything else in it is a data error that names its line") {
+  const Directory here;
+  here.write("house.csv", "2,1\n4,high\n4,3\n");
+  const test::Failure found =
+      failure(pond("[[wall]]\npolygon = \"house.csv\"\nwater = \"outside\"\n"), {}, here.path() + "/scene.toml");
+  CHECK(found.exit == Exit::data);
+  CHECK_THAT(found.text, Catch::Contains("house.csv:2: this is not a point, x and y in m"));
+}

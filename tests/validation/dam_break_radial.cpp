@@ -53,7 +53,7 @@ TEST_CASE("the circular dam break on wet ground is as accurate as the best known
   // A prototype on a disc of 640 m reached 0.0123/0.0076, 0.0144/0.0097, 0.0162/0.0118; the thesis prints 0.014/0.007,
   // 0.015/0.009, 0.016/0.011. The bounds are the prototype's, rounded up by 2 to 6 %.
   constexpr Bound bounds[] = {{10, 0.013, 0.008}, {30, 0.015, 0.010}, {50, 0.0165, 0.012}};
-  const auto [summary, fluid] = test::finish_case("dam_break_radial");
+  const auto [summary, gauges, fluid] = test::finish_case("dam_break_radial");
   REQUIRE(summary.errors_at.size() == 3);
   for (std::size_t k = 0; k < 3; ++k) {
     const auto& [t, errors] = summary.errors_at[k];
@@ -70,7 +70,7 @@ TEST_CASE("the circular dam break on wet ground is as accurate as the best known
 }
 
 TEST_CASE("the circular dam break on dry ground") {
-  const auto [summary, fluid] = test::finish_case("dam_break_radial_dry");
+  const auto [summary, gauges, fluid] = test::finish_case("dam_break_radial_dry");
   CHECK(summary.initial_particles == 5024);
   REQUIRE(summary.errors_at.size() == 3);
   CHECK(summary.errors_at[2].errors.depth_l2_rel <= 0.022);  // a prototype: 0.0214

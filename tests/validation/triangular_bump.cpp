@@ -10,7 +10,7 @@ using namespace freshet;
 
 namespace {
 
-constexpr double reservoir = 0.75;  // m
+constexpr double reservoir = 0.75, manning = 0.0125;  // m, s/m^(1/3)
 constexpr double reading = 0.005, reading_time = 0.1;  // m, s, errors of the digitised curves
 
 struct Deviation {
@@ -24,7 +24,7 @@ struct Deviation {
 };
 
 test::Channel channel(const Scene& scene, int cells) {
-  return {0, 38, cells, scene.gravity, *scene.manning, [&](double x) { return scene.bed.elevation(x, 0); },
+  return {0, 38, cells, scene.gravity, manning, [&](double x) { return scene.bed.elevation(x, 0); },
           [&](double x) { return scene.water.depth(x, 0); }, {}};
 }
 
