@@ -23,6 +23,7 @@ struct CaseRun {
   Summary summary;
   std::vector<Series> gauges;  // m, elevations in the order of the scene
   Fluid fluid;                 // at the end
+  std::shared_ptr<const Method> method;  // likewise
 
   template <class Where>
   double mass_where(const Where& where) const {  // m3
@@ -36,13 +37,13 @@ struct CaseRun {
 inline CaseRun finish_case(const std::string& name, const std::vector<std::string>& overrides = {}) {
   const Scratch scratch;
   const Scene scene = read_case(name, overrides);
-  const auto method = make_method(scene);
+  const std::shared_ptr<Method> method = make_method(scene);
   RunOptions options;
   options.directory = scratch.path();
   Driver driver(scene, *method, options);
   driver.begin();
   driver.run();
-  CaseRun run{driver.summary(), {}, fluid_on_host(method->fields())};
+  CaseRun run{driver.summary(), {}, fluid_on_host(method->fields()), method};
   for (std::size_t g = 0; g < scene.gauges.size(); ++g) run.gauges.push_back(gauge_series(driver.gauge_rows(), g));
   return run;
 }
