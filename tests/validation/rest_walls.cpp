@@ -26,8 +26,3 @@ TEST_CASE("a relaxed start is what keeps water still along slanting walls") {
   // From cut cells the first rows are pushed about: the test must be able to tell.
   CHECK(test::run_case("rest_corner_300", {"water.start=cells"}).steady.max_speed_rel > 0.02);
 }
-
-TEST_CASE("modified virtual boundary particles hold the circle's water at the end of the run") {
-  // The thesis' own method and time. Corners of 300 and 345 degrees it does not hold: docs/accuracy.md.
-  CHECK(test::run_case("rest_circle", {"sph.walls=mvbp"}).steady.end_speed_rel < 0.05);
-}
