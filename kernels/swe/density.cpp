@@ -211,7 +211,7 @@ struct Calibrate {
     const Lanes me = sums.clusters(c);
     const Lane rho = me.load(sums.p.rho);
     const Sums<D> s = sums.template sum<false>(c, sums.here(me), rho, me.load(sums.p.h));
-    me.store(calibration, rho / (s.density + s.wall.density));
+    me.store(calibration, clamp(rho / (s.density + s.wall.density), Lane(0.5), Lane(2.0)));
   }
 };
 

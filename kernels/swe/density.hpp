@@ -31,7 +31,8 @@ DensityReport solve_density(const AnyKernel<D>& kernel, const ClusterSet& cluste
                             const WallView<D>& walls, const Particles<D>& p, const ImposedLanes& imposed,
                             const DensityOptions& options);
 
-// Sets the calibration with which the sum at the particles' places gives the depths that they have.
+// Sets the calibration with which the sum at the particles' places gives the depths that they have; within 1/2 and 2, which
+// only particles at a shore exceed.
 template <int D>
 void calibrate_density(const AnyKernel<D>& kernel, const ClusterSet& clusters, const NeighbourView& near,
                        const WallView<D>& walls, const Particles<D>& p, const Field<double>& calibration);
