@@ -196,14 +196,13 @@ Crossed OpenBuffer<D>::convert(FieldSet& particles, const Particles<D>& p, const
   return {crossed[0], crossed[1]};
 }
 
+// Where each row has room for particles, and for how many in all.
 template <int D>
-void OpenBuffer<D>::insert(FieldSet& particles, const Bind<D>& bind, const std::optional<Bed<D>>& bed, int& next_id) {
+int OpenBuffer<D>::count_room(const FieldSet& particles, const VecField<double, D>& x) {
   const Frame at_line = frame();
-  const auto row = row_;
   const auto extent = extent_;
-  const int n = particles.size(), total = total_, owner = owner_;
+  const int total = total_, owner = owner_;
   const Field<int> id = particles.integer("id"), kind = particles.integer("kind");
-  const VecField<double, D> x = bind().x;
   const Field<double> farthest = farthest_, nearest = nearest_;
   const double dx = options_.spacing;
   constexpr double none = 1e300;
@@ -211,7 +210,7 @@ void OpenBuffer<D>::insert(FieldSet& particles, const Bind<D>& bind, const std::
         farthest(r) = extent(r).from - 0.5 * dx;
         nearest(r) = none;
       });
-  Kokkos::parallel_for("open::edges", Range(0, n), KOKKOS_LAMBDA(int i) {
+  Kokkos::parallel_for("open::edges", Range(0, particles.size()), KOKKOS_LAMBDA(int i) {
         if (id(i) < 0 || kind(i) != owner) return;
         const int r = at_line.row(at(x, i));
         Kokkos::atomic_fetch_max(&farthest(r), -at_line.inside(at(x, i)));
@@ -227,7 +226,19 @@ void OpenBuffer<D>::insert(FieldSet& particles, const Bind<D>& bind, const std::
         sum += inner_room(r) + static_cast<int>(larger(0.0, ::floor((extent(r).to + 0.25 * dx - farthest(r)) / dx)));
       });
   Kokkos::deep_copy(added, Kokkos::subview(room, total));
+  return added;
+}
+
+template <int D>
+void OpenBuffer<D>::insert(FieldSet& particles, const Bind<D>& bind, const std::optional<Bed<D>>& bed, int& next_id) {
+  const int added = count_room(particles, bind().x);
   if (added == 0) return;
+  const Frame at_line = frame();
+  const auto row = row_;
+  const int n = particles.size(), total = total_, owner = owner_;
+  const Field<double> farthest = farthest_, nearest = nearest_;
+  const Field<int> room = room_, inner_room = inner_room_;
+  const double dx = options_.spacing;
   particles.resize(n + added);
   const Particles<D> f = bind();
   const Field<int> new_id = particles.integer("id"), new_kind = particles.integer("kind");

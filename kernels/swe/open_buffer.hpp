@@ -74,6 +74,7 @@ class OpenBuffer {
 
   // Conversions across the line, removals, and the exterior state on the boundary particles; then insertions.
   Crossed convert(FieldSet& particles, const Particles<D>& p, const std::optional<Bed<D>>& bed);
+  int count_room(const FieldSet& particles, const VecField<double, D>& x);
   void insert(FieldSet& particles, const Bind<D>& bind, const std::optional<Bed<D>>& bed, int& next_id);
 
   // Volume of the footprints' parts across the line: boundary particles' inside minus fluid's outside [m3].
