@@ -201,7 +201,7 @@ TEST_CASE("rasters: the files hold the water's volume, its levels and its maxima
   CHECK_FALSE(std::filesystem::exists(scratch / "rasters/u_0000.asc"));
 }
 
-TEST_CASE("rasters: who does not ask gets no launch, no storage and no folder; maxima cost one launch a step") {
+TEST_CASE("rasters: who does not ask gets no launch, no storage and no folder, maxima cost one launch a step") {
   const test::Scratch scratch;
   Scene scene = drop();
   scene.end_time = 0.05;
