@@ -7,6 +7,7 @@
 #include "src/reference/radial.hpp"
 #include "src/reference/ritter.hpp"
 #include "src/scene/sections.hpp"
+#include "src/scene/shapes.hpp"
 
 namespace freshet::input {
 namespace {
@@ -114,6 +115,12 @@ Solution read_bump(Table& table, const Scene& scene) {
   return {exact, "q = " + rounded(exact->discharge()) + " m2/s" + jump};
 }
 
+Solution read_macdonald(Table& table, const Scene&) {
+  const ChannelFlow flow = read_channel_flow(table);
+  if (!flow.depth) return {};
+  return {macdonald(flow), "q = " + shown(flow.discharge) + " m2/s"};
+}
+
 Solution read_exact(Table& table, const Scene& scene) {
   using Reader = Solution (*)(Table&, const Scene&);
   const Reader reader = table
@@ -124,7 +131,8 @@ Solution read_exact(Table& table, const Scene& scene) {
                                                      {"radial-dam-break", read_radial_dam},
                                                      {"beach-wave", read_beach},
                                                      {"rest", read_rest},
-                                                     {"bump", read_bump}})
+                                                     {"bump", read_bump},
+                                                     {"macdonald", read_macdonald}})
                             .required();
   if (!reader) {
     table.accept_rest();

@@ -71,7 +71,18 @@ Function plain(Table& shape, int dimension) {
   return floodplain(plain);
 }
 
+Function macdonald_channel(Table& shape, int) {
+  const ChannelFlow flow = read_channel_flow(shape);
+  const double manning = shape.number("manning", "s/m^(1/3)").at_least(0).required();
+  const double length = shape.number("length", "m").positive().required(1);
+  return flow.depth ? macdonald_bed(flow, manning, length, shape.context().gravity) : Function{};
+}
+
 }  // namespace
+
+ChannelFlow read_channel_flow(Table& table) {
+  return {table.function("depth").required(), table.number("discharge", "m2/s").positive().required(1)};
+}
 
 Function read_shape(Table& shape, int dimension, std::string& description) {
   using Reader = Function (*)(Table&, int);
@@ -82,7 +93,8 @@ Function read_shape(Table& shape, int dimension, std::string& description) {
                            {"step", step},
                            {"paraboloid", paraboloid},
                            {"slope", slope},
-                           {"floodplain", plain}})
+                           {"floodplain", plain},
+                           {"macdonald", macdonald_channel}})
           .required();
   if (!reader) {
     shape.accept_rest();  // without its type nobody knows which keys belong to it

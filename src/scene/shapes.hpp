@@ -2,6 +2,7 @@
 #pragma once
 #include <string>
 
+#include "src/reference/macdonald.hpp"
 #include "src/scene/scene.hpp"
 
 namespace freshet::input {
@@ -17,6 +18,10 @@ class Table;
 // slope       gradient = dz/dx or [dz/dx, dz/dy], from = x or [x, y] [m] where the level is `level` [m]
 // (default 0)
 // floodplain  seed (default 1), box = [x0, y0, x1, y1] [m] (default 9 x 4 km): floodplain.hpp
+// macdonald   depth (expression [m]), discharge [m2/s], manning [s/m^(1/3)], length [m]: macdonald.hpp
 Function read_shape(Table& shape, int dimension, std::string& description);
+
+// depth, discharge: the flow of a MacDonald channel; no depth after an error.
+ChannelFlow read_channel_flow(Table& table);
 
 }  // namespace freshet::input

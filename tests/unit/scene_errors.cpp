@@ -61,7 +61,7 @@ TEST_CASE("An unknown value of a choice is an error that names the value meant")
 TEST_CASE("An unknown reference solution is an error") {
   check_error(pond("[compare]\nexact = { type = \"thacker\" }\n"),
               "scene.toml:9:18: error: 'compare.exact.type' is 'thacker'; it must be one of 'stoker', "
-              "'ritter', 'thacker-planar', 'thacker-radial', 'radial-dam-break', 'beach-wave', 'rest' or 'bump'\n"
+              "'ritter', 'thacker-planar', 'thacker-radial', 'radial-dam-break', 'beach-wave', 'rest', 'bump' or 'macdonald'\n"
               "  exact = { type = \"thacker\" }\n"
               "                   ^");
 }
@@ -219,7 +219,7 @@ TEST_CASE("A misspelt exact solution causes no errors where it is used") {
       "[time]\nend = { periods = 1 }\n[compare]\nexact = { type = \"thacker-plannar\" }\n");
   CHECK(found.text ==
         "scene.toml:9:18: error: 'compare.exact.type' is 'thacker-plannar'; it must be one of 'stoker', "
-        "'ritter', 'thacker-planar', 'thacker-radial', 'radial-dam-break', 'beach-wave', 'rest' or 'bump'\n"
+        "'ritter', 'thacker-planar', 'thacker-radial', 'radial-dam-break', 'beach-wave', 'rest', 'bump' or 'macdonald'\n"
         "  exact = { type = \"thacker-plannar\" }\n"
         "                   ^\n"
         "  help: did you mean 'thacker-planar'?");
