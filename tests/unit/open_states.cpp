@@ -117,7 +117,7 @@ TEST_CASE("an imposed state that the water inside has already changes nothing") 
   }
 }
 
-TEST_CASE("an imposed supercritical state enters whole; still water outside pours critically on dry land") {
+TEST_CASE("an imposed supercritical state enters whole, still water outside pours critically on dry land") {
   const ExteriorState fast = ImposedState{0.1, true, 4}({0.3, 1}, flat);
   CHECK(fast.depth == Approx(0.1));
   CHECK(fast.inward == 4);

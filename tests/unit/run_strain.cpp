@@ -40,7 +40,7 @@ TEST_CASE("strain: iterations above three, and lists outgrown in a tenth of the 
   CHECK_THAT(outgrown.warnings(report)[0], Catch::Contains("outgrew their neighbour lists in 2 of 2 spans"));
 }
 
-TEST_CASE("strain: a short burst within a span is no alarm; a last span counts from 100 steps on") {
+TEST_CASE("strain: a short burst within a span is no alarm, a last span counts from 100 steps on") {
   Strain strain;
   StepReport report;
   steps(strain, report, 0, 100, 8, 0.4);

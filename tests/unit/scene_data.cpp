@@ -325,7 +325,7 @@ TEST_CASE("A bed from a file is smoothed at the scale of h, others are not") {
   CHECK(line.bed.filter == Approx(0.1 / std::sqrt(3.0)));  // h2/3 in 1-D, and h = dx there
 }
 
-TEST_CASE("Times of a series are scaled and shifted; profiles are measured over places") {
+TEST_CASE("Times of a series are scaled and shifted, profiles are measured over places") {
   const Directory here;
   here.write("g.csv", "0 1\n60 2\n");
   const Scene scene = read_in(
