@@ -56,7 +56,8 @@ class Refinement {
     if (split_) lay_pattern();
   }
 
-  // After the drift, before the sort: splits and merges. clusters, near: those of the last list; particles inserted since then do not merge.
+  // After the drift, before the sort: splits and merges. clusters, near: those of the last list; particles inserted since then
+  // do not merge.
   // kind: nothing but fluid (0) is touched; empty: all is fluid. New particles take the ids from next_id on.
   void adapt(FieldSet& particles, const Bind& bind, const Field<int>& kind, const ClusterSet& clusters, const NeighbourView& near,
              const WallView<D>& walls, int& next_id);

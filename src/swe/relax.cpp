@@ -35,15 +35,15 @@ Scene still_water(const Scene& scene, bool lake) {
 }
 
 // One step of the relaxation: v falls, and the masses follow the areas that the particles have, until every density is the
-// depth there: level - bed, over a flat bed 1.
-void settle(const FieldSet& fields, int dimension, double eta, double level) {
+// depth there: level - bed, over a flat bed 1, and never below least [m], where a particle has run up a shore.
+void settle(const FieldSet& fields, int dimension, double eta, double level, double least) {
   constexpr double slowing = 0.95, sharing = 0.05;
   const Field<double> u = fields.real("u"), v = fields.real(dimension == 2 ? "v" : "u");
   const Field<double> m = fields.real("mass"), rho = fields.real("depth"), h0 = fields.real("h0"), kh = fields.real("kh");
   const Field<double> bed = fields.has("bed") ? fields.real("bed") : Field<double>();
   const bool plane = dimension == 2;
   Kokkos::parallel_for("swe::settle", Range(0, fields.size()), KOKKOS_LAMBDA(int i) {
-        const double depth = bed.extent(0) > 0 ? level - bed(i) : level;
+        const double depth = larger(bed.extent(0) > 0 ? level - bed(i) : level, least);
         u(i) *= slowing;
         if (plane) v(i) *= slowing;
         m(i) *= 1 + sharing * (depth / rho(i) - 1);
@@ -61,7 +61,7 @@ double fastest(const FieldSet& fields, int dimension) {
   return most;
 }
 
-double depth_of(const FieldSet& fields) {
+double deepest_of(const FieldSet& fields) {
   const Field<double> rho = fields.real("depth");
   double deepest = 0;
   Kokkos::parallel_reduce("swe::deepest", Range(0, fields.size()), KOKKOS_LAMBDA(int i, double& d) { d = larger(d, rho(i)); },
@@ -79,10 +79,10 @@ std::vector<Placed> relaxed_lattice(const Scene& scene, const Function& depth) {
     throw SceneError("water.start = \"relaxed\" needs a basin without open boundaries; use \"cells\"");
   const std::optional<double> lake = lake_level(scene);
   Solver<D> solver(still_water(scene, lake.has_value()));
-  const double level = lake.value_or(1.0), celerity = std::sqrt(scene.gravity * depth_of(solver.fields()));
+  const double level = lake.value_or(1.0), deepest = deepest_of(solver.fields()), celerity = std::sqrt(scene.gravity * deepest);
   for (int n = 0; n < most_steps && (n < 10 || fastest(solver.fields(), D) > still * celerity); ++n) {
     solver.step(0, solver.stable_dt());
-    settle(solver.fields(), D, scene.sph.eta, level);
+    settle(solver.fields(), D, scene.sph.eta, level, 1e-6 * deepest);
   }
   const FieldSet& f = solver.fields();
   const auto x = on_host(f.real("x")), y = on_host(f.real(D == 2 ? "y" : "x")), m = on_host(f.real("mass"));

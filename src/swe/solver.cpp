@@ -72,7 +72,8 @@ void Solver<D>::evaluate(double kick_dt, double ahead) {
   close_density(ahead);
   if (depth_gradient_) find_depth_gradient<D>(kernel_, clusters_, neighbours_.view(), bind());
   internal_force<D>(kernel_, clusters_, neighbours_.view(), wall_view(), bind(), stabilise_);
-  if (scene_.sph.well_balanced && bed_) add_balanced_bed<D>(kernel_, clusters_, neighbours_.view(), wall_view(), bind(), *bed(), scene_.gravity);
+  if (scene_.sph.well_balanced && bed_)
+    add_balanced_bed<D>(kernel_, clusters_, neighbours_.view(), wall_view(), bind(), *bed(), scene_.gravity);
   crossing_time_ = accelerate_and_kick<D>(bind(), motion(), particles_.size(), kick_dt);
 }
 
@@ -96,8 +97,8 @@ template <int D>
 void Solver<D>::close_density(double ahead) {
   constexpr int most_lists = 20;  // each may grow h by the margin at most before it is made again
   DensityOptions options{scene_.gravity, scene_.sph.newton_tolerance, list_margin,
-                               {scene_.sph.h_floor, scene_.sph.h_cap}, gradient_, imposed_alpha_, ahead,
-                               scene_.sph.well_balanced ? particles_.real("calibration") : Field<double>()};
+                         {scene_.sph.h_floor, scene_.sph.h_cap}, gradient_, imposed_alpha_, ahead,
+                         scene_.sph.well_balanced ? particles_.real("calibration") : Field<double>()};
   for (int lists = 0; lists < most_lists; ++lists) {
     const DensityReport r = solve_density<D>(kernel_, clusters_, neighbours_.view(), wall_view(), bind(), {kind()}, options);
     report_.newton_mean = r.newton_mean;

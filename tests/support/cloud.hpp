@@ -135,6 +135,14 @@ inline swe::DensityOptions tight(int dimension) {
   return options;
 }
 
+// h held at eta dx: the depth is then the plain sum of m W and of the walls' terms.
+inline swe::DensityOptions fixed_h() {
+  auto options = tight(2);
+  options.margin = 0.05;
+  options.bounds = {1, 1};
+  return options;
+}
+
 template <int D>
 class Cloud {
  public:
