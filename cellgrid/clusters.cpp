@@ -103,6 +103,31 @@ double NeighbourList::mean_length(const ClusterSet& clusters) const {
   return clusters.size() > 0 ? static_cast<double>(sum) / clusters.size() : 0;
 }
 
+template <int D>
+double NeighbourList::count_pairs(const ClusterSet& clusters, const ListRequest<D>& request) const {
+  const ClusterSet sets = clusters;
+  const NeighbourView near = view_;
+  const VecField<double, D> x = request.x, source_x = request.source_x;
+  const Field<double> h = request.h, source_h = request.source_h;
+  const double factor = request.factor;
+  double pairs = 0;
+  Kokkos::parallel_reduce("cellgrid::pairs", Range(0, clusters.size()),
+      KOKKOS_LAMBDA(int c, double& sum) {
+        const Lanes me = sets(c);
+        near.for_each(c, [&](int j) {
+          for (int i = me.first; i < me.first + me.count; ++i) {
+            const Vec<double, D> d = at(x, i) - at(source_x, j);
+            const double reach = factor * larger(h(i), source_h(j));
+            sum += dot(d, d) < reach * reach ? 1.0 : 0.0;
+          }
+        });
+      },
+      pairs);
+  return pairs;
+}
+
+template double NeighbourList::count_pairs<1>(const ClusterSet&, const ListRequest<1>&) const;
+template double NeighbourList::count_pairs<2>(const ClusterSet&, const ListRequest<2>&) const;
 template void NeighbourList::build<1>(const ClusterSet&, const ListRequest<1>&);
 template void NeighbourList::build<2>(const ClusterSet&, const ListRequest<2>&);
 

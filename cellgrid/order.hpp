@@ -3,6 +3,7 @@
 #pragma once
 #include "cellgrid/fields.hpp"
 #include "cellgrid/pack.hpp"
+#include "cellgrid/work.hpp"
 
 namespace freshet {
 
@@ -51,6 +52,9 @@ struct Rows {
     }
   }
 };
+
+// The passes of a sort in 2-D; permute: of one field.
+inline constexpr Cost extent_cost{0, 4, 2.5}, count_cost{0, 4, 4.5}, place_cost{0, 0, 2}, permute_cost{0, 0, 2.5};
 
 class RowOrder {
  public:

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cellgrid/order.hpp"
+#include "cellgrid/work.hpp"
 #include "src/scene/scene.hpp"
 
 namespace freshet {
@@ -62,6 +63,8 @@ class Method {
   virtual Totals totals() const = 0;
   virtual Mechanics mechanics() const = 0;
   virtual StepReport report() const = 0;
+  // Modelled work of one launch, by label, for the state at hand; a method may leave some or all of its launches out.
+  virtual std::map<std::string, Work> work() const { return {}; }
   virtual std::vector<PointState> sample(const std::vector<Point>& points) const = 0;
   // Highest bed level [m] under a fluid particle at least min_depth deep within radius of the point; -1e300 if none.
   virtual double highest_wet_bed(const Point& at, double radius, double min_depth) const = 0;

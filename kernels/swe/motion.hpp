@@ -56,6 +56,10 @@ struct MotionOptions {
   bool walled = false;  // a step may not carry a particle past the walls that it has not met yet
 };
 
+// 2-D. Bed: with curvature; its table stays in the cache.
+inline constexpr Cost kick_and_drift_cost{0, 27, 18}, accelerate_cost{0, 17, 11}, bed_cost{0, 215, 5}, bed_slope_cost{0, 150, 3},
+    friction_cost{0, 60, 1};
+
 // v(t) -> v(t + dt/2), x -> x(t + dt); predicts v, rho, h at t + dt.
 template <int D>
 void kick_and_drift(const Particles<D>& p, const MotionOptions<D>& options, int n, double dt);

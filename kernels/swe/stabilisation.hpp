@@ -1,4 +1,4 @@
-// What a pair's pressures become under each stabilisation (SWE-FORMULAS section 6; thesis 2.5). One struct per choice; to
+// What a pair's pressures become under each stabilisation (SWE-FORMULAS section 6; thesis 2.5). One struct per choice (flops: what it adds to a pair, cellgrid/work.hpp); to
 // add one, write its struct, name it in the variant, in Stabilisation (src/scene/scene.hpp) and in the reader.
 #pragma once
 #include <variant>
@@ -46,6 +46,7 @@ KOKKOS_FORCEINLINE_FUNCTION V reconstructed_jump(const PairState<V>& p) {
 
 struct NoStabilisation {
   static constexpr bool velocity_gradient = false, depth_gradient = false;
+  static constexpr double flops = 0;
   template <class V>
   KOKKOS_FORCEINLINE_FUNCTION PairPressure<V> operator()(const PairState<V>& p) const {
     return {p.pressure_i, p.pressure_j};
@@ -55,6 +56,7 @@ struct NoStabilisation {
 // Artificial viscosity, corrected (2.53): Pi = (-a c mu + b mu^2)/rho with mu = h v.x/(r^2 + 0.01 h^2), approaching pairs only.
 struct ArtificialViscosity {
   static constexpr bool velocity_gradient = false, depth_gradient = false;
+  static constexpr double flops = 16;
   double a, b;
   template <class V>
   KOKKOS_FORCEINLINE_FUNCTION PairPressure<V> operator()(const PairState<V>& p) const {
@@ -67,6 +69,7 @@ struct ArtificialViscosity {
 // Lax-Friedrichs flux, corrected (2.54): Pi = -c v_ij.x_ij / (rho r) with mean c and rho; always on.
 struct LaxFriedrichs {
   static constexpr bool velocity_gradient = false, depth_gradient = false;
+  static constexpr double flops = 5;
   double strength;
   template <class V>
   KOKKOS_FORCEINLINE_FUNCTION PairPressure<V> operator()(const PairState<V>& p) const {
@@ -77,6 +80,7 @@ struct LaxFriedrichs {
 // The same on the reconstructed normal velocity.
 struct LaxFriedrichsMuscl {
   static constexpr bool velocity_gradient = true, depth_gradient = false;
+  static constexpr double flops = 33;
   double strength;
   template <class V>
   KOKKOS_FORCEINLINE_FUNCTION PairPressure<V> operator()(const PairState<V>& p) const {
@@ -101,6 +105,7 @@ KOKKOS_FORCEINLINE_FUNCTION V two_shock_depth(V left, V right, V closing, double
 template <bool Reconstructed>
 struct TwoShockFlux {
   static constexpr bool velocity_gradient = Reconstructed, depth_gradient = Reconstructed;
+  static constexpr double flops = Reconstructed ? 98 : 50;
   double gravity;
   template <class V>
   KOKKOS_FORCEINLINE_FUNCTION PairPressure<V> operator()(const PairState<V>& p) const {

@@ -15,6 +15,7 @@ usage:
   freshet run SCENE [key=value ...] [--out DIR] [--threads N] [--overwrite] [--quiet]
   freshet resume DIR [--threads N] [--quiet]     go on with a run that was stopped
   freshet check SCENE [key=value ...]            read the scene back: extent, particles, steps, features
+  freshet profile SCENE [key=value ...] [--steps N] [--threads N] [--json]   where the time of N (200) steps goes
   freshet list                                   the cases that come with the program
   freshet points DIR [--step K] [--csv FILE]     particles of one output as x,y,z,depth,v_0,v_1 (K: the last)
   freshet points DIR --list                      number and time of each output
@@ -88,6 +89,7 @@ const std::vector<Command>& commands() {
        run_command},
       {"resume", {{"--threads", true}, {"--quiet", false}}, resume_command},
       {"check", {{"--threads", true}}, check_command},
+      {"profile", {{"--steps", true}, {"--threads", true}, {"--json", false}}, profile_command},
       {"list", {}, list_command},
       {"points", {{"--step", true}, {"--csv", true}, {"--list", false}}, points_command}};
   return all;

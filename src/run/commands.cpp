@@ -83,8 +83,9 @@ std::string one_word(const Arguments& arguments, const std::string& usage) {
                    usage);
 }
 
-// --threads, else all cores (0) unless the scene is so small that starting threads would cost more than they do: the cells
-// that fill the domain are at least as many as the particles.
+}  // namespace
+
+// The cells that fill the domain are at least as many as the particles.
 int wanted_threads(const Scene& scene, const Arguments& arguments) {
   constexpr double worth_threads = 2000;
   double cells = 1;
@@ -92,8 +93,6 @@ int wanted_threads(const Scene& scene, const Arguments& arguments) {
     cells *= (scene.domain.high[axis] - scene.domain.low[axis]) / scene.water.spacing;
   return arguments.number("--threads", cells < worth_threads ? 1 : 0, 1);
 }
-
-}  // namespace
 
 std::unique_ptr<Runtime> start_kokkos(int threads) {
   return Kokkos::is_initialized() ? nullptr : std::make_unique<Runtime>(threads);

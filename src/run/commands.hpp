@@ -20,6 +20,8 @@ const std::vector<Command>& commands();
 // commands.cpp
 int run_command(const Arguments& arguments, const Parts& parts);
 int resume_command(const Arguments& arguments, const Parts& parts);
+// profile_command.cpp
+int profile_command(const Arguments& arguments, const Parts& parts);
 // inspect.cpp
 int check_command(const Arguments& arguments, const Parts& parts);
 int list_command(const Arguments& arguments, const Parts& parts);
@@ -39,6 +41,8 @@ std::string find_scene(const std::string& path_or_case);
 // Starts Kokkos unless the process (a test) has started it already: it can be done once only. threads = 0:
 // all cores.
 std::unique_ptr<Runtime> start_kokkos(int threads);
+// --threads, else 0, or 1 for a scene so small that starting threads would cost more than they do.
+int wanted_threads(const Scene& scene, const Arguments& arguments);
 
 // How the user called the program, for commands that we tell him to type.
 extern std::string program_name;

@@ -5,13 +5,11 @@
 #include <filesystem>
 #include <iterator>
 
-#include "cellgrid/runtime.hpp"
 #include "src/errors.hpp"
 #include "src/io/files.hpp"
 #include "src/io/fluid.hpp"
 #include "src/run/build.hpp"
 #include "src/run/compare.hpp"
-#include "src/run/gauge_stats.hpp"
 
 namespace freshet {
 namespace {
@@ -76,12 +74,10 @@ bool Driver::run() {
       if (options_.stop && *options_.stop) break;
       step();
       check();
-      gauges_.record(method_, clock_.t);
-      run_ups_.record(method_);
-      steady_.record(method_);
-      rasters_.record(method_, clock_.t);
+      observe();
       fire_events();
       if (progress_.due(clock_.t)) show_progress();
+      if (options_.each_step) options_.each_step(clock_);
     }
     monitor_.check_all(method_, clock_);
   } catch (const Diverged& why) {
@@ -98,14 +94,27 @@ void Driver::step() {
   monitor_.check_dt(stable, clock_);
   const Stride stride = events_.shorten(clock_, stable, rasters_.times().next());
   gauges_.watch(method_, clock_.t, stride.until);
-  method_.step(clock_.t, stride.dt);
+  {
+    const Region region("run::step");
+    method_.step(clock_.t, stride.dt);
+  }
   clock_ = {stride.until, clock_.step + 1};
   dt_ = stride.dt;
   strain_.record(method_.report(), clock_);
   progress_.count(method_.fields().size());
 }
 
+// What looks at every step.
+void Driver::observe() {
+  const Region region("run::observe");
+  gauges_.record(method_, clock_.t);
+  run_ups_.record(method_);
+  steady_.record(method_);
+  rasters_.record(method_, clock_.t);
+}
+
 void Driver::check() {
+  const Region region("run::check");
   monitor_.check(method_, clock_);
   if (clock_.step % 100 != 0) return;
   monitor_.check_all(method_, clock_);
@@ -124,19 +133,24 @@ void Driver::fire_events() {
     monitor_.check_all(method_, clock_);
     write_particles();
   }
-  if (rasters_.times().due(clock_.t)) rasters_.write(method_, clock_.t);
+  if (rasters_.times().due(clock_.t)) {
+    const Region region("run::output");
+    rasters_.write(method_, clock_.t);
+  }
   const bool periodic = scene_.output.checkpoint_every > 0 && !finished(clock_, scene_);
   if (periodic && progress_.elapsed() - last_checkpoint_ >= scene_.output.checkpoint_every)
     write_state("state.h5");
 }
 
 void Driver::write_particles() {
+  const Region region("run::output");
   particles_.append(static_cast<int>(events_.outputs.done()), clock_.t, method_.fields());
   events_.outputs.advance();
 }
 
 // The other files first: a checkpoint must not count rows that are not on the disk yet.
 void Driver::write_state(const std::string& name) {
+  const Region region("run::output");
   if (!scene_.gauges.empty()) sync_file(inside(options_.directory, "gauges.csv"));
   sync_file(inside(options_.directory, "particles.h5part"));
   const std::string scene_file = scene_.file.empty() ? "" : std::filesystem::absolute(scene_.file).string();
@@ -215,86 +229,6 @@ void Driver::restore(const Checkpoint& checkpoint) {
     particles_.create(scene_.text, build::version);
   }
   progress_ = Progress(options_.progress, options_.terminal, clock_.t, scene_.end_time);
-}
-
-MassBalance Driver::mass_balance() const {
-  const Totals totals = method_.totals();
-  MassBalance mass;
-  mass.initial = monitor_.initial_mass();
-  mass.inflow = totals.inflow;
-  mass.outflow = totals.outflow;
-  mass.final = totals.mass;
-  mass.relative_error = monitor_.mass_error(totals);
-  const double unaccounted = std::abs(totals.inflow - totals.outflow - totals.straddle - totals.flux);
-  if (!scene_.boundaries.empty()) mass.flux_error = unaccounted / std::max(totals.flux_gross, 1e-300);
-  return mass;
-}
-
-EnergyBalance Driver::energy_balance() const {
-  const Mechanics &start = initial_mechanics_, end = method_.mechanics();
-  return {start.kinetic, start.potential, end.kinetic, end.potential,
-          {start.momentum[0], start.momentum[1]}, {end.momentum[0], end.momentum[1]}};
-}
-
-std::vector<std::string> Driver::warnings() const {
-  std::vector<std::string> all = strain_.warnings(method_.report());
-  for (const auto& line : energy_watch_.warnings()) all.push_back(line);
-  return all;
-}
-
-std::vector<GaugeResult> Driver::gauge_results() const {
-  std::vector<GaugeResult> results;
-  for (std::size_t g = 0; g < scene_.gauges.size(); ++g) {
-    results.push_back(compare_gauge(scene_.gauges[g], gauges_.rows(), g));
-  }
-  return results;
-}
-
-std::vector<RunUpResult> Driver::run_up_results() const {
-  std::vector<RunUpResult> results;
-  for (std::size_t r = 0; r < scene_.run_ups.size(); ++r) {
-    RunUpResult result;
-    result.name = scene_.run_ups[r].name;
-    if (run_ups_.highest()[r] > -1e299) result.highest = run_ups_.highest()[r];
-    if (const auto& range = scene_.run_ups[r].measured) result.measured = {(*range)[0], (*range)[1]};
-    results.push_back(result);
-  }
-  return results;
-}
-
-ErrorNorms Driver::errors() const {
-  ErrorNorms errors = error_norms(scene_, fluid_on_host(method_.fields()), clock_.t);
-  errors.grid_l2_rel = grid_l2(scene_, method_, clock_.t);
-  return errors;
-}
-
-Summary Driver::summary() const {
-  Summary s;
-  s.scene_case = scene_.name;
-  s.method = method_.name();
-  s.backend = backend_name();
-  s.version = build::version;
-  s.threads = thread_count();
-  s.initial_particles = initial_particles_;
-  s.final_particles = fluid_count(method_.fields());
-  s.steps = clock_.step;
-  s.list_rebuilds = method_.report().rebuilds;
-  s.simulated = clock_.t;
-  s.wall = wall();
-  s.particle_steps_per_s = (earlier_particle_steps_ + progress_.particle_steps()) / std::max(s.wall, 1e-9);
-  s.mass = mass_balance();
-  s.energy = energy_balance();
-  s.warnings = warnings();
-  s.gauges = gauge_results();
-  s.run_ups = run_up_results();
-  s.profiles = profiles_.results();
-  s.compared = scene_.compare.exact != nullptr;
-  if (s.compared) s.errors = errors();
-  if (s.compared) s.errors.depth_l1_rel = median(l1_samples_);
-  s.errors_at = errors_at_;
-  s.watched = steady_.wanted();
-  if (s.watched) s.steady = steady_.result(method_, dt_);
-  return s;
 }
 
 }  // namespace freshet

@@ -2,6 +2,7 @@
 #pragma once
 #include <atomic>
 #include <cstdio>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct RunOptions {
   std::FILE* progress = nullptr;            // nullptr: no progress lines
   bool terminal = false;                    // progress goes to a terminal
   const std::atomic<bool>* stop = nullptr;  // finish the step and leave when it becomes true
+  std::function<void(const Clock&)> each_step = {};  // called after every step and what it brought
 };
 
 class Driver {
@@ -41,6 +43,7 @@ class Driver {
 
  private:
   void step();
+  void observe();
   void check();
   void fire_events();
   void write_particles();

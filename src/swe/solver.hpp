@@ -30,6 +30,7 @@ class Solver : public Method {
   Totals totals() const override;
   Mechanics mechanics() const override;
   StepReport report() const override { return report_; }
+  std::map<std::string, Work> work() const override;  // src/swe/work.cpp
   std::vector<PointState> sample(const std::vector<Point>& points) const override;
   double highest_wet_bed(const Point& at, double radius, double min_depth) const override;
   std::vector<std::string> features() const override;
@@ -48,6 +49,7 @@ class Solver : public Method {
   void make_fields();
   Particles<D> bind() const;
   MotionOptions<D> motion() const;
+  Cost motion_cost() const;
   Field<int> kind() const;
   std::optional<Bed<D>> bed() const;
   void find_neighbours();  // sorts and lists
