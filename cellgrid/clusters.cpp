@@ -60,12 +60,20 @@ struct Lister {
     const double far = larger(mine, reach * sources.largest_h(b.xlo, b.xhi, b.ylo, b.yhi));
     int* list = &out.list(c, 0);
     int n = 0;
+    const auto near = [&](int j) {
+      const Vec<Lane, D> d = xi - broadcast(at(source_x, j));
+      const Lane limit = larger(reach_i, Lane(reach) * Lane(source_h(j)));
+      return any(dot(d, d) < limit * limit);
+    };
     sources.for_each_run(b.xlo, b.xhi, b.ylo, b.yhi, far, [&](int begin, int end) {
-      for (int j = begin; j < end; ++j) {
-        const Vec<Lane, D> d = xi - broadcast(at(source_x, j));
-        const Lane limit = larger(reach_i, Lane(reach * source_h(j)));
-        list[n < slab ? n : slab] = j;  // the slab's last entry takes the overflow
-        n += any(dot(d, d) < limit * limit);
+      int j = begin;
+      for (const int sure = smaller(end, begin + slab - n); j < sure; ++j) {  // these fit in, even if all are near
+        list[n] = j;
+        n += near(j);
+      }
+      for (; j < end; ++j) {
+        list[smaller(n, slab)] = j;  // the slab's last entry takes the overflow
+        n += near(j);
       }
     });
     out.length(c) = smaller(n, slab);
@@ -91,7 +99,7 @@ void NeighbourList::build(const ClusterSet& clusters, const ListRequest<D>& requ
     reserve(clusters.size());
     const Lister<D> lister{clusters, request.x, request.source_x, request.h, request.source_h, request.source_rows,
                            request.factor * (1 + request.margin), view_, slab_};
-    Kokkos::parallel_reduce("cellgrid::list", Range(0, clusters.size()), lister, Kokkos::Max<int>(longest));
+    Kokkos::parallel_reduce(label_, Range(0, clusters.size()), lister, Kokkos::Max<int>(longest));
   } while (longest > slab_);
 }
 

@@ -26,6 +26,19 @@ struct Lanes {
     return value;
   }
 
+  KOKKOS_FORCEINLINE_FUNCTION LaneIndex load(const Field<int>& f) const {
+    LaneIndex value;
+#if defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP) || defined(FRESHET_SCALAR)
+    value = f(first);
+#else
+    if (count == lanes)
+      __builtin_memcpy(&value, f.data() + first, sizeof(value));
+    else
+      for (int l = 0; l < lanes; ++l) value.set(l, f(particle(l)));
+#endif
+    return value;
+  }
+
   KOKKOS_FORCEINLINE_FUNCTION void store(const Field<double>& f, Lane value) const {
 #if defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP) || defined(FRESHET_SCALAR)
     f(first) = value;
@@ -106,7 +119,7 @@ inline constexpr Cost list_cost{12, 4, 3};
 
 class NeighbourList {
  public:
-  explicit NeighbourList(int slab = 96) : slab_(slab) {}
+  explicit NeighbourList(int slab = 96, const char* label = "cellgrid::list") : slab_(slab), label_(label) {}
 
   // Lists every cluster's neighbours (a particle is its own neighbour). Slabs grow when a list overflows: no pair is lost.
   template <int D>
@@ -122,6 +135,7 @@ class NeighbourList {
  private:
   void reserve(int clusters);
   int slab_;
+  const char* label_;  // of the launch
   NeighbourView view_;
 };
 

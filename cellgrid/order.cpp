@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cellgrid/clusters.hpp"
+#include "cellgrid/runtime.hpp"
+
 namespace freshet {
 namespace {
 
@@ -11,20 +14,53 @@ struct Extent {
   double xlo = 0, xhi = 0, ylo = 0, yhi = 0;  // m
 };
 
+// Of a chunk of particles, lane by lane; what is dropped or not finite does not count.
+struct ChunkExtent {
+  static constexpr int chunk = 1024;
+  Field<double> x, y;
+  Field<int> id;
+  int n;
+  bool plane;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int c, double& xlo, double& xhi, double& ylo, double& yhi) const {
+    const Lane far = 1e300;
+    Lane low_x = far, high_x = -far, low_y = far, high_y = -far;
+    const int end = smaller((c + 1) * chunk, n);
+    for (int first = c * chunk; first < end; first += lanes) {
+      const Lanes me{first, smaller(lanes, end - first)};
+      const Lane px = me.load(x), py = plane ? me.load(y) : Lane(0.0);
+      const auto counts = (Lane(-0.5) < to_real(me.load(id))) & (-far < px) & (px < far) & (-far < py) & (py < far);
+      low_x = select(counts, smaller(low_x, px), low_x), high_x = select(counts, larger(high_x, px), high_x);
+      low_y = select(counts, smaller(low_y, py), low_y), high_y = select(counts, larger(high_y, py), high_y);
+    }
+    xlo = smaller(xlo, smallest(low_x)), xhi = larger(xhi, largest(high_x));
+    ylo = smaller(ylo, smallest(low_y)), yhi = larger(yhi, largest(high_y));
+  }
+};
+
 Extent extent_of(const Field<double>& x, const Field<double>& y, const Field<int>& id, int n) {
-  const bool plane = y.extent(0) > 0;
   Extent e;
-  Kokkos::parallel_reduce(
-      "cellgrid::extent", Range(0, n),
-      KOKKOS_LAMBDA(int i, double& xlo, double& xhi, double& ylo, double& yhi) {
-        if (id(i) < 0) return;
-        const double px = x(i), py = plane ? y(i) : 0.0;
-        xlo = smaller(xlo, px), xhi = larger(xhi, px);
-        ylo = smaller(ylo, py), yhi = larger(yhi, py);
-      },
-      Kokkos::Min<double>(e.xlo), Kokkos::Max<double>(e.xhi), Kokkos::Min<double>(e.ylo), Kokkos::Max<double>(e.yhi));
+  Kokkos::parallel_reduce("cellgrid::extent", Range(0, (n + ChunkExtent::chunk - 1) / ChunkExtent::chunk),
+                          ChunkExtent{x, y, id, n, y.extent(0) > 0}, Kokkos::Min<double>(e.xlo), Kokkos::Max<double>(e.xhi),
+                          Kokkos::Min<double>(e.ylo), Kokkos::Max<double>(e.yhi));
   return e.xlo <= e.xhi ? e : Extent{};
 }
+
+// The cell of each of a few particles, rows times bins of them; the last for those that are dropped.
+struct Keys {
+  Rows rows;
+  Field<double> x, y;
+  Field<int> id;
+  bool plane;
+
+  static KOKKOS_FORCEINLINE_FUNCTION Lane cell(Lane c, double n) { return select(c < Lane(n - 1), larger(c, Lane(0.0)), Lane(n - 1)); }
+  KOKKOS_FORCEINLINE_FUNCTION LaneIndex operator()(const Lanes& me) const {
+    const LaneIndex bin = to_index(cell((me.load(x) - rows.x0) * rows.per_bin_width, rows.bins));
+    const LaneIndex row = plane ? to_index(cell((me.load(y) - rows.y0) * rows.per_row_height, rows.rows)) : LaneIndex(0);
+    const Lane key = to_real(row * rows.bins + bin), none = static_cast<double>(rows.rows) * rows.bins;
+    return to_index(select(Lane(-0.5) < to_real(me.load(id)), key, none));
+  }
+};
 
 template <class View>
 void reserve(View& view, const char* label, int n) {
@@ -67,18 +103,22 @@ void RowOrder::lay_grid(const FieldSet& particles) {
 }
 
 void RowOrder::count_bins(const FieldSet& particles) {
-  const int n = particles.size(), cell_count = rows_.rows * rows_.bins, dimension = dimension_;
+  const int n = particles.size(), cell_count = rows_.rows * rows_.bins;
   reserve(rows_.start, "cellgrid.start", cell_count + 2);
   reserve(key_, "cellgrid.key", n);
   reserve(slot_, "cellgrid.slot", n);
-  const Rows rows = rows_;
-  const Field<int> key = key_, slot = slot_, start = rows_.start, id = id_;
-  const Field<double> x = x_, y = y_;
+  const Field<int> key = key_, slot = slot_, start = rows_.start;
+  const Keys keys{rows_, x_, y_, id_, dimension_ == 2};
+  const bool alone = thread_count() == 1;  // atomics cost half of this pass
   Kokkos::parallel_for("cellgrid::clear", Range(0, cell_count + 2), KOKKOS_LAMBDA(int c) { start(c) = 0; });
-  Kokkos::parallel_for("cellgrid::count", Range(0, n), KOKKOS_LAMBDA(int i) {
-        const int r = dimension == 2 ? rows.row_of(y(i)) : 0;
-        key(i) = id(i) < 0 ? cell_count : r * rows.bins + rows.bin_of(x(i));
-        slot(i) = Kokkos::atomic_fetch_add(&start(key(i)), 1);
+  Kokkos::parallel_for("cellgrid::count", Range(0, (n + lanes - 1) / lanes), KOKKOS_LAMBDA(int b) {
+        const Lanes me{b * lanes, smaller(lanes, n - b * lanes)};
+        const LaneIndex cells = keys(me);
+        for (int l = 0; l < me.count; ++l) {
+          const int cell = lane_of(cells, l);
+          key(me.first + l) = cell;
+          slot(me.first + l) = alone ? start(cell)++ : Kokkos::atomic_fetch_add(&start(cell), 1);
+        }
       });
   Kokkos::parallel_scan("cellgrid::scan", Range(0, cell_count + 2), KOKKOS_LAMBDA(int c, int& sum, bool last) {
         const int here = start(c);
@@ -124,6 +164,8 @@ void RowOrder::measure_reach(const FieldSet& particles, const Field<double>& h, 
   rows_.tile_bins = covering(rows_.bin_width, rows_.bins);
   rows_.tiles_x = (rows_.bins - 1) / rows_.tile_bins + 1;
   rows_.tiles_y = (rows_.rows - 1) / rows_.tile_rows + 1;
+  rows_.per_tile_width = rows_.per_bin_width / rows_.tile_bins;
+  rows_.per_tile_height = rows_.per_row_height / rows_.tile_rows;
   const int tiles = rows_.tiles_x * rows_.tiles_y;
   reserve(tile_h_, "cellgrid.tile_h", tiles);
   reserve(rows_.reach, "cellgrid.reach", tiles);

@@ -17,6 +17,7 @@ struct Rows {
 
   int tile_rows = 1, tile_bins = 1;     // a tile's size in rows and bins: at least the largest support
   int tiles_x = 0, tiles_y = 0;
+  double per_tile_width = 1, per_tile_height = 1;  // 1/m
   Field<double> reach;                  // m, largest h of a tile and its eight neighbours
 
   KOKKOS_FORCEINLINE_FUNCTION int bin_of(double x) const { return cell((x - x0) * per_bin_width, bins); }
@@ -30,9 +31,9 @@ struct Rows {
   // Largest h [m] of the particles whose support can touch the box.
   KOKKOS_INLINE_FUNCTION double largest_h(double xlo, double xhi, double ylo, double yhi) const {
     double h = 0;
-    const int tx1 = bin_of(xhi) / tile_bins, ty1 = row_of(yhi) / tile_rows;
-    for (int ty = row_of(ylo) / tile_rows; ty <= ty1; ++ty)
-      for (int tx = bin_of(xlo) / tile_bins; tx <= tx1; ++tx) h = larger(h, reach(ty * tiles_x + tx));
+    const int tx1 = cell((xhi - x0) * per_tile_width, tiles_x), ty1 = cell((yhi - y0) * per_tile_height, tiles_y);
+    for (int ty = cell((ylo - y0) * per_tile_height, tiles_y); ty <= ty1; ++ty)
+      for (int tx = cell((xlo - x0) * per_tile_width, tiles_x); tx <= tx1; ++tx) h = larger(h, reach(ty * tiles_x + tx));
     return h;
   }
 

@@ -154,11 +154,24 @@ struct WallView {
     return select((Lane(-s.see_a) < along) & (along < Lane(s.length + s.see_b)), Lane(1.0), Lane(0.0));
   }
 
-  // Whether a particle has an image in the segment: it stands on the water's side, not beside it (in an opening next to it).
-  KOKKOS_FORCEINLINE_FUNCTION static bool mirrors(const WallSegment&, const Vec<double, 1>&) { return true; }
-  KOKKOS_FORCEINLINE_FUNCTION static bool mirrors(const WallSegment& s, const Vec<double, 2>& x) {
-    const double dx = x.x - s.a[0], dy = x.y - s.a[1], along = dx * s.tangent[0] + dy * s.tangent[1];
-    return dx * s.normal[0] + dy * s.normal[1] > 0 && along > -s.before && along < s.length + s.after;
+  // How far inside the water the foremost of a cluster's images stands [m]: negative behind the wall.
+  KOKKOS_FORCEINLINE_FUNCTION static double foremost(const WallSegment& s, const Vec<Lane, 1>& image) {
+    return largest((image.x - s.a[0]) * s.normal[0]);
+  }
+  KOKKOS_FORCEINLINE_FUNCTION static double foremost(const WallSegment& s, const Vec<Lane, 2>& image) {
+    return largest((image.x - s.a[0]) * s.normal[0] + (image.y - s.a[1]) * s.normal[1]);
+  }
+
+  // Whether the segment mirrors a particle to an image that stands no further than `limit` from it along the normal, measured
+  // from the wall: it is on the water's side, not beside the segment (in an opening next to it).
+  KOKKOS_FORCEINLINE_FUNCTION static bool mirrors(const WallSegment& s, const Vec<double, 1>& x, double limit) {
+    return (x.x - s.a[0]) * s.normal[0] < limit;
+  }
+  KOKKOS_FORCEINLINE_FUNCTION static bool mirrors(const WallSegment& s, const Vec<double, 2>& x, double limit) {
+    const double dx = x.x - s.a[0], dy = x.y - s.a[1], inside = dx * s.normal[0] + dy * s.normal[1];
+    if (!(inside > 0 && inside < limit)) return false;
+    const double along = dx * s.tangent[0] + dy * s.tangent[1];
+    return along > -s.before && along < s.length + s.after;
   }
 
   // mirror: calls see(image, weight, segment) for the images of a cluster in the walls near it; weight is 0 in lanes without
@@ -168,7 +181,7 @@ struct WallView {
     constexpr int most = 24;  // pieces of wall within a support: two or three, many along a curve
     int found[most], n = 0;
     near.for_each(cluster, [&](int k) {
-      bool known = n == most;
+      bool known = n == most || (n > 0 && found[n - 1] == segment(k));
       for (int m = 0; m < n; ++m) known = known || found[m] == segment(k);
       if (!known) found[n++] = segment(k);
     });

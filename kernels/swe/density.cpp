@@ -13,12 +13,16 @@ struct Gradient;
 template <class V>
 struct Gradient<V, 1> {
   V xx{0.0};
+  KOKKOS_FORCEINLINE_FUNCTION Gradient& operator+=(const Gradient& b) { return xx += b.xx, *this; }
   KOKKOS_FORCEINLINE_FUNCTION void add(const Vec<V, 1>& fd, const Vec<V, 1>& dv) { xx += fd.x * dv.x; }
   KOKKOS_FORCEINLINE_FUNCTION V divergence() const { return xx; }
 };
 template <class V>
 struct Gradient<V, 2> {
   V ux{0.0}, uy{0.0}, vx{0.0}, vy{0.0};
+  KOKKOS_FORCEINLINE_FUNCTION Gradient& operator+=(const Gradient& b) {
+    return ux += b.ux, uy += b.uy, vx += b.vx, vy += b.vy, *this;
+  }
   KOKKOS_FORCEINLINE_FUNCTION void add(const Vec<V, 2>& fd, const Vec<V, 2>& dv) {
     ux += fd.x * dv.x;
     uy += fd.y * dv.x;
@@ -38,24 +42,37 @@ KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 2> symmetric_gradient(const Gradient<Lane,
 }
 
 template <int D>
-struct Sums {
+struct PairSums {
   Lane density{0.0};       // sum m W
   Sym<Lane, D> spread;     // sum m F x_ji (x) x_ji, F = -W'/r; its trace is -sum m r W'
   Gradient<Lane, D> slope;  // sum m F v_ji (x) x_ji
+
+  // Number by number: a sum that is copied as a whole stays in memory while it is summed (g++ 12).
+  KOKKOS_FORCEINLINE_FUNCTION PairSums& operator+=(const PairSums& b) {
+    return density += b.density, spread += b.spread, slope += b.slope, *this;
+  }
+};
+
+template <int D>
+struct Sums : PairSums<D> {
   WallSums<Lane, D> wall;
 };
 
 // One pair: the density, its derivative and, where wanted, the velocity gradient, all from one 1/r.
 template <bool Gradients, class K, int D>
 KOKKOS_FORCEINLINE_FUNCTION void add_pair(const K& kernel, const Vec<Lane, D>& x_ji, const Vec<Lane, D>& v_ji, Lane m, Lane inv_h,
-                                          Sums<D>& sum) {
+                                          PairSums<D>& sum) {
   const Lane r2 = dot(x_ji, x_ji) + tiny_square;
-  const Lane inv_r = rsqrt(r2);
-  const auto k = kernel.at(r2 * inv_r * inv_h);
+  const Lane inv_r = rsqrt(r2), r = r2 * inv_r;
+  const auto k = kernel.at(r * inv_h);
   sum.density += m * k.w;
-  const Vec<Lane, D> f_x = (-m * k.dw * inv_r) * x_ji;
-  add_square(sum.spread, f_x, x_ji);
-  if constexpr (Gradients) sum.slope.add(f_x, v_ji);
+  if constexpr (Gradients) {
+    const Vec<Lane, D> f_x = (-m * k.dw * inv_r) * x_ji;
+    add_square(sum.spread, f_x, x_ji);
+    sum.slope.add(f_x, v_ji);
+  } else {
+    sum.spread.xx += (-m * k.dw) * r;  // its trace is all that is asked for
+  }
 }
 
 // What a cluster's particles bring to their sums.
@@ -79,13 +96,10 @@ struct SumDensity {
 
   template <bool Gradients>
   KOKKOS_INLINE_FUNCTION Sums<D> sum(int c, const Here<D>& i, Lane rho, Lane h) const {
-    Sums<D> s;
     const Lane inv_h = 1.0 / h;
-    near.for_each(c, [&](int j) {
-      Vec<Lane, D> v_ji;
-      if constexpr (Gradients) v_ji = broadcast(at(p.v_pred, j)) - i.v;
-      add_pair<Gradients>(kernel, broadcast(at(p.x, j)) - i.x, v_ji, Lane(p.m(j)), inv_h, s);
-    });
+    const PairSums<D> pairs = walk<Gradients>(c, i.x, i.v, inv_h, [](int) { return true; });
+    Sums<D> s;
+    s += pairs;
     const Lane per_volume = power<D>(inv_h);
     s.density *= per_volume;
     if (walls.on && walls.mirror)
@@ -95,16 +109,30 @@ struct SumDensity {
     return s;
   }
 
+  // The sums over the neighbours that count, as seen from x moving at v. A local result, its arguments by value: sums whose
+  // address is known elsewhere would be written to memory at every pair.
+  template <bool Gradients, class Counts>
+  KOKKOS_FORCEINLINE_FUNCTION PairSums<D> walk(int c, const Vec<Lane, D> x, const Vec<Lane, D> v, const Lane inv_h,
+                                               const Counts& counts) const {
+    PairSums<D> s;
+    near.for_each(c, [&](int j) {
+      if (!counts(j)) return;
+      Vec<Lane, D> v_ji;
+      if constexpr (Gradients) v_ji = broadcast(at(p.v_pred, j)) - v;
+      add_pair<Gradients>(kernel, broadcast(at(p.x, j)) - x, v_ji, Lane(p.m(j)), inv_h, s);
+    });
+    return s;
+  }
+
   // What the neighbours' images add: the cluster's own image sees the neighbours.
   KOKKOS_INLINE_FUNCTION void add_images(int c, const Here<D>& i, Lane inv_h, WallSums<Lane, D>& wall) const {
     const Lane per_volume = power<D>(inv_h);
     walls.for_each_image(c, i.x, [&](const Image<D>& image, Lane weight, const WallSegment& segment) {
-      const Vec<Lane, D> x_image = image(i.x), v_image = image.turn(i.v);
-      Sums<D> s;
-      near.for_each(c, [&](int j) {
-        if (!walls.mirrors(segment, at(p.x, j))) return;
-        add_pair<true>(kernel, broadcast(at(p.x, j)) - x_image, broadcast(at(p.v_pred, j)) - v_image, Lane(p.m(j)), inv_h, s);
-      });
+      const Vec<Lane, D> x_image = image(i.x);
+      const double limit = kernel.support / smallest(inv_h) + walls.foremost(segment, x_image);
+      if (limit <= 0) return;
+      const PairSums<D> s = walk<true>(c, x_image, image.turn(i.v), inv_h,
+                                       [&](int j) { return walls.mirrors(segment, at(p.x, j), limit); });
       wall.density += weight * per_volume * s.density;
       wall.moment += weight * per_volume * inv_h * trace(s.spread);
       wall.approach += weight * per_volume * inv_h * s.slope.divergence();
@@ -174,12 +202,10 @@ struct SolveDensity {
     write(me, {rho, h, alpha, imposed, own}, first, i.m);
     evaluations += n;
     most = larger(most, n);
-    for (int l = 0; l < me.count; ++l) {
-      const bool at_bound = lane_of(bounded, l) > 0.5 && lane_of(imposed, l) < 0.5;
-      outgrown += lane_of(h, l) > lane_of(longest_listed, l);
-      capped += at_bound && lane_of(h, l) > lane_of(i.h0, l);
-      floored += at_bound && lane_of(h, l) < lane_of(i.h0, l);
-    }
+    const auto active = first_lanes(me.count), at_bound = active & (Lane(0.5) < bounded) & (imposed < Lane(0.5));
+    outgrown += count(active & (longest_listed < h));
+    capped += count(at_bound & (i.h0 < h));
+    floored += count(at_bound & (h < i.h0));
   }
 
   KOKKOS_INLINE_FUNCTION void write(const Lanes& me, const State& state, const Sums<D>& s, Lane m) const {

@@ -48,12 +48,18 @@ struct InternalForce {
     const Lane from_i = pressure.i * (p.m(j) * i.weight_per_mass) * kernel.slope(q_i);
     const Lane from_j = pressure.j * p.weight(j) * kernel.slope(q_j);
     sum.t += ((from_i + from_j) * inv_r) * x_ij;
-    sum.signal = larger(sum.signal, reach_mask(smaller(q_i, q_j)) * larger(pair.jump, -pair.jump) * inv_r);
+    sum.signal = larger_where(smaller(q_i, q_j) < Lane(kernel.support), sum.signal, size_of(pair.jump) * inv_r);
   }
 
-  // 1 within the support, 0 beyond.
-  KOKKOS_FORCEINLINE_FUNCTION Lane reach_mask(Lane q) const {
-    return select(q < Lane(kernel.support), Lane(1.0), Lane(0.0));
+  // The sums over the neighbours that count. A local result and a copy of i: what has an address known elsewhere would be
+  // written and read again at every pair.
+  template <class Counts>
+  KOKKOS_FORCEINLINE_FUNCTION ForceSums<D> walk(int c, const Here<D> i, const Counts& counts) const {
+    ForceSums<D> sum;
+    near.for_each(c, [&](int j) {
+      if (counts(j)) add_pair(i, j, sum);
+    });
+    return sum;
   }
 
   // The force of the neighbours' images: what i's image feels from the neighbours, mirrored back.
@@ -64,9 +70,9 @@ struct InternalForce {
       other.v = image.turn(i.v);
       if constexpr (Stabilise::velocity_gradient) other.strain = image.turn(i.strain);
       if constexpr (Stabilise::depth_gradient) other.depth_slope = image.turn(i.depth_slope);
-      ForceSums<D> felt;
-      near.for_each(c, [&](int j) {
-        if (walls.mirrors(segment, at(p.x, j))) add_pair(other, j, felt);
+      const double ahead = walls.foremost(segment, other.x), reach = kernel.support * largest(i.h);
+      const ForceSums<D> felt = walk(c, other, [&](int j) {
+        return walls.mirrors(segment, at(p.x, j), larger(reach, kernel.support * p.h(j)) + ahead);
       });
       sum.t += weight * image.turn_back(felt.t);
       sum.signal = larger(sum.signal, weight * felt.signal);
@@ -84,8 +90,7 @@ struct InternalForce {
       const PairState<Lane> pair{s * closing, s * s * slope, s * s * slope, 2.0 * i.celerity, inv_r * (1.0 / s) / (2.0 * i.rho),
                                  s * s * r2,  2.0 * i.h,     i.rho,         i.rho,            0.0, 0.0, i.pressure, i.pressure};
       sum.t += (walls.pushes(s) * stabilise(pair).i * mass * i.weight_per_mass * dw * inv_r) * to_wall;
-      const Lane inside = select(dw < Lane(0.0), Lane(1.0), Lane(0.0));
-      sum.signal = larger(sum.signal, inside * larger(closing, -closing) * inv_r);
+      sum.signal = larger_where(dw < Lane(0.0), sum.signal, size_of(closing) * inv_r);
     }
   }
 
@@ -96,8 +101,8 @@ struct InternalForce {
               me.load(p.celerity), me.load(p.weight) / m, {}, {}};
     if constexpr (Stabilise::velocity_gradient) i.strain = me.load(p.strain);
     if constexpr (Stabilise::depth_gradient) i.depth_slope = me.load(p.depth_slope);
-    ForceSums<D> sum;
-    near.for_each(c, [&](int j) { add_pair(i, j, sum); });
+    const ForceSums<D> pairs = walk(c, i, [](int) { return true; });
+    ForceSums<D> sum = pairs;
     if (walls.on && walls.mirror) {
       add_images(c, i, sum);
     } else if (walls.on) {

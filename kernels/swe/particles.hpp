@@ -48,10 +48,9 @@ struct ImposedLanes {
   Field<int> kind;
 
   KOKKOS_INLINE_FUNCTION Lane operator()(const Lanes& me) const {
-    Lane value(0.0);
-    if (kind.extent(0) > 0)
-      for (int l = 0; l < lanes; ++l) set_lane(value, l, kind(me.particle(l)) != 0 ? 1.0 : 0.0);
-    return value;
+    if (kind.extent(0) == 0) return 0.0;
+    const Lane k = to_real(me.load(kind));
+    return select(Lane(0.5) < k * k, Lane(1.0), Lane(0.0));
   }
 };
 

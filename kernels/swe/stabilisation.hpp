@@ -39,9 +39,12 @@ KOKKOS_FORCEINLINE_FUNCTION PairPressure<V> with_viscosity(const PairState<V>& p
 }
 
 // v_r - v_l along x_ij (times r) of the velocities reconstructed from both ends (MUSCL, corrected (2.57)).
+// Turned so that the jump is positive, minmod(jump, slope) is one clamp; the sign is put back at the end.
 template <class V>
 KOKKOS_FORCEINLINE_FUNCTION V reconstructed_jump(const PairState<V>& p) {
-  return p.jump - 0.5 * (minmod(p.jump, p.slope_i) + minmod(p.jump, p.slope_j));
+  const V size = size_of(p.jump), zero(0.0);
+  const V taken = larger(zero, smaller(size, turned_by(p.slope_i, p.jump))) + larger(zero, smaller(size, turned_by(p.slope_j, p.jump)));
+  return turned_by(size - 0.5 * taken, p.jump);
 }
 
 struct NoStabilisation {

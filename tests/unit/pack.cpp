@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include <limits>
+#include <vector>
 
 #include "tests/support/cloud.hpp"
 #include "tests/support/pack_border.hpp"
@@ -70,6 +71,30 @@ TEST_CASE("pack: smaller, larger, clamp") {
   require_lanes(larger(-a, Lane(0.0)), [](int l) { return std::max(3.0 - l, 0.0); });
 }
 
+TEST_CASE("pack: sizes, signs and the larger where a mask says so") {
+  const Lane a = ramp(-3, 1), b = ramp(1.5, -1);
+  require_lanes(size_of(a), [](int l) { return std::abs(-3.0 + l); });
+  require_lanes(turned_by(a, b), [](int l) { return 1.5 - l < 0 ? 3.0 - l : -3.0 + l; });
+  require_lanes(larger_where(b < Lane(0.0), a, Lane(2.0)), [](int l) { return 1.5 - l < 0 ? std::max(-3.0 + l, 2.0) : -3.0 + l; });
+  CHECK(size_of(-2.0) == 2);
+  CHECK(turned_by(3.0, -1.0) == -3);
+  CHECK(larger_where(false, 1.0, 2.0) == 1);
+  CHECK(larger_where(true, 1.0, 2.0) == 2);
+}
+
+TEST_CASE("pack: runs of four numbers of a table") {
+  std::vector<double> table(50);
+  for (std::size_t k = 0; k < table.size(); ++k) table[k] = 1.0 / (1 + k);
+  LaneIndex index;
+  for (int l = 0; l < lanes; ++l) index.set(l, 7 * l % 40);
+  Lane four[4];
+  gather_four(table.data(), index, four);
+  for (int k = 0; k < 4; ++k) require_lanes(four[k], [k](int l) { return 1.0 / (1 + 7 * l % 40 + k); });
+  double one[4];
+  gather_four(table.data(), 5, one);
+  CHECK(one[3] == table[8]);
+}
+
 TEST_CASE("pack: select, any and count follow the mask") {
   const Lane a = ramp(0, 1), b = ramp(100, 1);
   for (int k = 0; k <= lanes; ++k) {
@@ -78,6 +103,8 @@ TEST_CASE("pack: select, any and count follow the mask") {
     CHECK(any(below) == (k > 0));
     CHECK(count(below) == k);
     CHECK(count(!below) == lanes - k);
+    CHECK(count(first_lanes(k) & (Lane(-1.0) < a)) == k);
+    CHECK(count(first_lanes(k) & !below) == 0);
     const auto first = a < Lane(1.0);
     CHECK(count(below & first) == (k > 0 ? 1 : 0));
     CHECK(count(below | first) == std::max(k, 1));

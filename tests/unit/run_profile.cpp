@@ -134,6 +134,7 @@ TEST_CASE("a profile counts every launch of the steps asked for, and no other") 
   double sum = 0;
   for (const PassProfile& one : p.passes) sum += one.seconds;
   CHECK(sum == Approx(p.launched));
+  CHECK(pass(p, "walls::list").calls == 7);
 }
 
 TEST_CASE("a profile of a scene that ends early counts the steps that there were") {
