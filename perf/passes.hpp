@@ -57,6 +57,16 @@ class PassList {
     return {{"accelerate_friction", none(), [w = w_] { w->accelerate(0); }, o_n(cost)}};
   }
 
+  std::vector<Pass> with_matrix() const {
+    return {{"matvec", none(), [w = w_] { w->multiply(); }, [w = w_] {
+               Work work = work_of(matvec_cost, w->size());
+               work.flops += matvec_cost.pair_flops * w->entries();
+               work.bytes += matvec_bytes_per_entry * w->entries();
+               work.listed = work.pairs = w->entries();
+               return work;
+             }}};
+  }
+
   // The work is that without walls: what they cost shows in the time.
   std::vector<Pass> with_walls(const std::string& kind) const {
     return {density("density_" + kind), force("force_" + kind, swe::LaxFriedrichsMuscl{1}),

@@ -61,6 +61,7 @@ class Pool {
     water_ = std::make_shared<Water>(arrangement, n);
     if (extra == "bed") water_->add_bed();
     if (extra == "friction") water_->add_friction();
+    if (extra == "matrix") water_->add_matrix();
     if (extra == "mirror") water_->add_walls(WallKind::mirror);
     if (extra == "rows") water_->add_walls(WallKind::rows);
     if (extra == "mvbp") water_->add_walls(WallKind::mvbp);
@@ -77,6 +78,7 @@ std::vector<Pass> passes_of(const std::shared_ptr<Water>& water, const std::stri
   if (extra.empty()) return all.plain();
   if (extra == "bed") return all.with_bed();
   if (extra == "friction") return all.with_friction();
+  if (extra == "matrix") return all.with_matrix();
   return all.with_walls(extra);
 }
 
@@ -84,8 +86,7 @@ void add_benchmarks(Pool& pool, Arrangement arrangement, int n, const std::strin
   const auto names = [&] {  // of the passes; a handful of particles will do
     std::vector<std::string> all;
     auto few = std::make_shared<Water>(Arrangement::uniform, 100);
-    for (const Pass& pass : extra.empty() || extra == "bed" || extra == "friction" ? passes_of(few, extra) : PassList(few).with_walls(extra))
-      all.push_back(pass.name);
+    for (const Pass& pass : passes_of(few, extra)) all.push_back(pass.name);
     return all;
   }();
   for (std::size_t k = 0; k < names.size(); ++k) {
@@ -122,7 +123,7 @@ int main(int argc, char** argv) {
   Pool pool;
   for (int n = 1000; n <= largest; n *= 10) {
     for (const Arrangement a : {Arrangement::uniform, Arrangement::graded, Arrangement::clustered}) add_benchmarks(pool, a, n, "");
-    for (const char* extra : {"bed", "friction", "mirror", "rows", "mvbp"}) add_benchmarks(pool, Arrangement::uniform, n, extra);
+    for (const char* extra : {"bed", "friction", "matrix", "mirror", "rows", "mvbp"}) add_benchmarks(pool, Arrangement::uniform, n, extra);
   }
   benchmark::RunSpecifiedBenchmarks();
   return 0;

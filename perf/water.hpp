@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "cellgrid/pairs.hpp"
 #include "kernels/bed_spline.hpp"
 #include "kernels/swe/density.hpp"
 #include "kernels/swe/depth_gradient.hpp"
@@ -88,6 +89,16 @@ class Water {
   }
   void kick_and_drift(double dt) { swe::kick_and_drift<D>(bind(), motion(), size(), dt); }
   double accelerate(double dt) { return swe::accelerate_and_kick<D>(bind(), motion(), size(), dt); }
+  // y = 20 x - sum of the neighbours' x: a matrix as a pressure equation has it.
+  void multiply() {
+    const PairView pairs = pairs_.view();
+    const Field<double> a = coefficient_, x = vector_x_, y = vector_y_;
+    Kokkos::parallel_for("perf::matvec", Range(0, pairs.slices()), KOKKOS_LAMBDA(int s) {
+          const Lanes me = pairs(s);
+          me.store(y, 20.0 * me.load(x) - pairs.weighted_sum(s, a, x));
+        });
+  }
+  double entries() const { return static_cast<double>(pairs_.entries()) * lanes; }
   void find_walls() { walls_->find(clusters_, bind().x, bind().h, margin); }
   void reflect() { walls_->reflect(clusters_, bind().x, bind().v, bind().v_pred); }
 
@@ -116,6 +127,14 @@ class Water {
     const double size = side_ * dx, wave = 20 * dx;
     const auto level = [=](double x, double y) { return 0.05 * wave * std::sin(x / wave) * std::cos(y / wave); };
     bed_ = swe::Bed<D>{BedSpline<D>(level, {{0, 0}, {size, size}, dx, 0}), true, fields_.real("bed", "m", Carry::no)};
+  }
+  void add_matrix() {
+    const auto p = bind();
+    pairs_.build<D>(size(), {order_.rows(), p.x, p.h, 2.0});
+    coefficient_ = pairs_.coefficient("perf.a");
+    Kokkos::deep_copy(coefficient_, 1.0);
+    vector_x_ = copy(p.rho);
+    vector_y_ = copy(p.rho);
   }
   void add_friction() {
     friction_ = swe::Friction{gravity, 0.02};
@@ -198,7 +217,8 @@ class Water {
   RowOrder order_;
   ClusterSet clusters_;
   NeighbourList neighbours_;
-  Field<double> settled_rho_, settled_h_, drag_;
+  Field<double> settled_rho_, settled_h_, drag_, coefficient_, vector_x_, vector_y_;
+  Pairs pairs_;
   std::optional<swe::Bed<D>> bed_;
   std::optional<swe::Friction> friction_;
   std::optional<Walls<D>> walls_;
