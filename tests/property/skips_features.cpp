@@ -123,7 +123,7 @@ TEST_CASE("skips: every kind of wall adds the list of its points and the reflect
   CHECK(field_names(scene) == field_names(drop()));
 }
 
-TEST_CASE("skips: the well-balanced bed adds its calibration and one pass, the latter only over a bed") {
+TEST_CASE("skips: the well-balanced bed adds its calibration and, over a bed, two passes") {
   Scene scene = drop();
   const Names bare = field_names(scene);
   scene.sph.well_balanced = true;
@@ -131,7 +131,7 @@ TEST_CASE("skips: the well-balanced bed adds its calibration and one pass, the l
   CHECK(extra_labels(scene) == Names{});
   scene.bed.elevation = [](double x, double) { return 0.01 * x; };
   CHECK(minus(field_names(scene), bare) == Names{"bed", "calibration"});
-  CHECK(extra_labels(scene) == Names{"swe::balanced_bed"});
+  CHECK(extra_labels(scene) == Names{"swe::balanced_bed", "swe::bed_level"});
 }
 
 TEST_CASE("skips: every kind of open boundary adds the field of kinds and launches of its own") {
