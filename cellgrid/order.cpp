@@ -46,7 +46,7 @@ Extent extent_of(const Field<double>& x, const Field<double>& y, const Field<int
   return e.xlo <= e.xhi ? e : Extent{};
 }
 
-// The cell of each of a few particles, rows times bins of them; the last for those that are dropped.
+// The key of each of a few particles: block times bins plus the bin within it; -1 for those that are dropped.
 struct Keys {
   Rows rows;
   Field<double> x, y;
@@ -57,8 +57,8 @@ struct Keys {
   KOKKOS_FORCEINLINE_FUNCTION LaneIndex operator()(const Lanes& me) const {
     const LaneIndex bin = to_index(cell((me.load(x) - rows.x0) * rows.per_bin_width, rows.bins));
     const LaneIndex row = plane ? to_index(cell((me.load(y) - rows.y0) * rows.per_row_height, rows.rows)) : LaneIndex(0);
-    const Lane key = to_real(row * rows.bins + bin), none = static_cast<double>(rows.rows) * rows.bins;
-    return to_index(select(Lane(-0.5) < to_real(me.load(id)), key, none));
+    const Lane key = to_real(row * (rows.columns * Rows::block_bins) + bin);
+    return to_index(select(Lane(-0.5) < to_real(me.load(id)), key, Lane(-1.0)));
   }
 };
 
@@ -93,46 +93,68 @@ void RowOrder::lay_grid(const FieldSet& particles) {
   rows_.y0 = e.ylo;
   rows_.row_height = 2 * spacing_;
   rows_.bin_width = 0.5 * spacing_;
-  const double most = 8.0 * n + 1024;  // a stray particle must not make a huge grid
+  const double most = std::min(4.0 * n + 4096, 3e7);  // blocks: a stray particle must not make a huge table
   while (height / rows_.row_height > most) rows_.row_height *= 2;
   rows_.rows = cells(height, rows_.row_height);
-  while (width / rows_.bin_width * rows_.rows > most) rows_.bin_width *= 2;
+  while (width / (Rows::block_bins * rows_.bin_width) * rows_.rows > most) rows_.bin_width *= 2;
   rows_.bins = cells(width, rows_.bin_width);
+  rows_.columns = (rows_.bins - 1) / Rows::block_bins + 1;
   rows_.per_row_height = 1 / rows_.row_height;
   rows_.per_bin_width = 1 / rows_.bin_width;
 }
 
-void RowOrder::count_bins(const FieldSet& particles) {
-  const int n = particles.size(), cell_count = rows_.rows * rows_.bins;
-  reserve(rows_.start, "cellgrid.start", cell_count + 2);
+// Which blocks hold particles; returns how many cells they have. Keys: block and bin within it, -1 = to be dropped.
+int RowOrder::keep_blocks(const FieldSet& particles) {
+  const int n = particles.size(), blocks = rows_.rows * rows_.columns;
+  if (mark_.extent_int(0) < blocks + 1) mark_ = Field<int>("cellgrid.mark", static_cast<size_t>(blocks + blocks / 2 + 256));
+  reserve(rows_.block, "cellgrid.block", blocks + 1);
   reserve(key_, "cellgrid.key", n);
-  reserve(slot_, "cellgrid.slot", n);
-  const Field<int> key = key_, slot = slot_, start = rows_.start;
+  const Field<int> key = key_, mark = mark_, block = rows_.block;
   const Keys keys{rows_, x_, y_, id_, dimension_ == 2};
-  const bool alone = thread_count() == 1;  // atomics cost half of this pass
-  Kokkos::parallel_for("cellgrid::clear", Range(0, cell_count + 2), KOKKOS_LAMBDA(int c) { start(c) = 0; });
-  Kokkos::parallel_for("cellgrid::count", Range(0, (n + lanes - 1) / lanes), KOKKOS_LAMBDA(int b) {
+  Kokkos::parallel_for("cellgrid::mark", Range(0, (n + lanes - 1) / lanes), KOKKOS_LAMBDA(int b) {
         const Lanes me{b * lanes, smaller(lanes, n - b * lanes)};
-        const LaneIndex cells = keys(me);
+        const LaneIndex all = keys(me);
         for (int l = 0; l < me.count; ++l) {
-          const int cell = lane_of(cells, l);
-          key(me.first + l) = cell;
-          slot(me.first + l) = alone ? start(cell)++ : Kokkos::atomic_fetch_add(&start(cell), 1);
+          const int k = lane_of(all, l);
+          key(me.first + l) = k;
+          if (k >= 0 && mark(k / Rows::block_bins) == 0) mark(k / Rows::block_bins) = 1;
         }
       });
-  Kokkos::parallel_scan("cellgrid::scan", Range(0, cell_count + 2), KOKKOS_LAMBDA(int c, int& sum, bool last) {
+  Kokkos::parallel_scan("cellgrid::keep", Range(0, blocks + 1), KOKKOS_LAMBDA(int k, int& sum, bool last) {
+        const int kept = mark(k);
+        if (last) block(k) = sum, mark(k) = 0;
+        sum += kept * Rows::block_bins;
+      });
+  int kept_cells = 0;
+  Kokkos::deep_copy(kept_cells, Kokkos::subview(rows_.block, blocks));
+  return kept_cells;
+}
+
+void RowOrder::count_bins(const FieldSet& particles, int cells) {
+  const int n = particles.size();
+  reserve(rows_.start, "cellgrid.start", cells + 2);
+  reserve(slot_, "cellgrid.slot", n);
+  const Field<int> key = key_, slot = slot_, start = rows_.start, block = rows_.block;
+  const bool alone = thread_count() == 1;  // atomics cost half of this pass
+  Kokkos::parallel_for("cellgrid::clear", Range(0, cells + 2), KOKKOS_LAMBDA(int c) { start(c) = 0; });
+  Kokkos::parallel_for("cellgrid::count", Range(0, n), KOKKOS_LAMBDA(int i) {
+        const int k = key(i), cell = k < 0 ? cells : block(k / Rows::block_bins) + k % Rows::block_bins;
+        key(i) = cell;
+        slot(i) = alone ? start(cell)++ : Kokkos::atomic_fetch_add(&start(cell), 1);
+      });
+  Kokkos::parallel_scan("cellgrid::scan", Range(0, cells + 2), KOKKOS_LAMBDA(int c, int& sum, bool last) {
         const int here = start(c);
         if (last) start(c) = sum;
         sum += here;
       });
 }
 
-void RowOrder::place(const FieldSet& particles) {
-  const int n = particles.size(), cell_count = rows_.rows * rows_.bins;
+void RowOrder::place(const FieldSet& particles, int cells) {
+  const int n = particles.size();
   reserve(order_, "cellgrid.order", n);
   const Field<int> key = key_, slot = slot_, start = rows_.start, order = order_, id = id_;
   Kokkos::parallel_for("cellgrid::place", Range(0, n), KOKKOS_LAMBDA(int i) { order(start(key(i)) + slot(i)) = i; });
-  Kokkos::parallel_for("cellgrid::settle", Range(0, cell_count), KOKKOS_LAMBDA(int c) {
+  Kokkos::parallel_for("cellgrid::settle", Range(0, cells), KOKKOS_LAMBDA(int c) {
         const int first = start(c), in_bin = start(c + 1) - first;
         if (in_bin > 1) sort_by_id(&order(first), in_bin, id.data());
       });
@@ -144,29 +166,36 @@ void RowOrder::sort(FieldSet& particles) {
   y_ = dimension_ == 2 ? particles.real("y") : Field<double>();
   id_ = particles.integer("id");
   lay_grid(particles);
-  count_bins(particles);
-  place(particles);
+  const int cells = keep_blocks(particles);
+  count_bins(particles, cells);
+  place(particles, cells);
   int kept = 0;
-  Kokkos::deep_copy(kept, Kokkos::subview(rows_.start, rows_.rows * rows_.bins));
+  Kokkos::deep_copy(kept, Kokkos::subview(rows_.start, cells));
   particles.permute(order_, kept);
   particles.resize(kept);
+}
+
+int RowOrder::lay_tiles() {
+  rows_.tiles_x = (rows_.bins - 1) / rows_.tile_bins + 1;
+  rows_.tiles_y = (rows_.rows - 1) / rows_.tile_rows + 1;
+  return rows_.tiles_x * rows_.tiles_y;
 }
 
 void RowOrder::measure_reach(const FieldSet& particles, const Field<double>& h, double support_factor) {
   double h_max = 0;
   Kokkos::parallel_reduce("cellgrid::largest_h", Range(0, particles.size()),
       KOKKOS_LAMBDA(int i, double& m) { m = larger(m, h(i)); }, Kokkos::Max<double>(h_max));
-  const double support = std::isfinite(h_max) ? std::max(support_factor * h_max, spacing_) : spacing_;
+  rows_.support = std::isfinite(h_max) ? std::max(support_factor * h_max, spacing_) : spacing_;
   const auto covering = [&](double width, int n) {
-    return static_cast<int>(std::clamp(std::ceil(support / width), 1.0, static_cast<double>(n)));
+    return static_cast<int>(std::clamp(std::ceil(rows_.support / width), 1.0, static_cast<double>(n)));
   };
   rows_.tile_rows = covering(rows_.row_height, rows_.rows);
   rows_.tile_bins = covering(rows_.bin_width, rows_.bins);
-  rows_.tiles_x = (rows_.bins - 1) / rows_.tile_bins + 1;
-  rows_.tiles_y = (rows_.rows - 1) / rows_.tile_rows + 1;
+  // Where water is sparse tiles are larger: a lattice has one for 12 particles.
+  while (lay_tiles() > particles.size() / 8 + 1024) rows_.tile_rows *= 2, rows_.tile_bins *= 2;
   rows_.per_tile_width = rows_.per_bin_width / rows_.tile_bins;
   rows_.per_tile_height = rows_.per_row_height / rows_.tile_rows;
-  const int tiles = rows_.tiles_x * rows_.tiles_y;
+  const int tiles = lay_tiles();
   reserve(tile_h_, "cellgrid.tile_h", tiles);
   reserve(rows_.reach, "cellgrid.reach", tiles);
   const Rows rows = rows_;
@@ -176,7 +205,7 @@ void RowOrder::measure_reach(const FieldSet& particles, const Field<double>& h, 
         const int b0 = tx * rows.tile_bins, b1 = smaller(b0 + rows.tile_bins, rows.bins);
         double m = 0;
         for (int r = ty * rows.tile_rows; r < smaller((ty + 1) * rows.tile_rows, rows.rows); ++r)
-          for (int i = rows.start(r * rows.bins + b0); i < rows.start(r * rows.bins + b1); ++i) m = larger(m, h(i));
+          for (int i = rows.begin(r, b0); i < rows.end(r, b1 - 1); ++i) m = larger(m, h(i));
         tile_h(t) = m;
       });
   Kokkos::parallel_for("cellgrid::reach", Range(0, tiles), KOKKOS_LAMBDA(int t) {

@@ -191,9 +191,6 @@ using LaneIndex = pack<int, lanes>;
 KOKKOS_FORCEINLINE_FUNCTION int to_index(double a) { return static_cast<int>(a); }
 KOKKOS_FORCEINLINE_FUNCTION double to_real(int a) { return a; }
 KOKKOS_FORCEINLINE_FUNCTION double gather(const double* table, int index) { return table[index]; }
-KOKKOS_FORCEINLINE_FUNCTION void gather_four(const double* table, int index, double (&four)[4]) {
-  for (int k = 0; k < 4; ++k) four[k] = table[index + k];
-}
 // a^(-1/3), a > 0
 KOKKOS_FORCEINLINE_FUNCTION double inverse_cbrt(double a) { return 1.0 / ::cbrt(a); }
 
@@ -210,32 +207,12 @@ pack<double, W> to_real(pack<int, W> a) {
 inline double8 gather(const double* table, pack<int, 8> index) {
   return double8::Vector(_mm512_mask_i32gather_pd(_mm512_setzero_pd(), all_lanes, (__m256i)index.v, table, 8));
 }
-// Two runs of four in one register.
-inline __m512d two_runs(const double* a, const double* b) {
-  return (__m512d)__builtin_shufflevector((vector_of<double, 4>::type)_mm256_loadu_pd(a), (vector_of<double, 4>::type)_mm256_loadu_pd(b),
-                                          0, 1, 2, 3, 4, 5, 6, 7);
-}
-// four[k] = table[index + k]: eight loads and a transpose, three times as fast as gathers where those are slow (AMD).
-inline void gather_four(const double* table, pack<int, 8> index, double8 (&four)[4]) {
-  const __m512d r02 = two_runs(table + index[0], table + index[2]), r13 = two_runs(table + index[1], table + index[3]);
-  const __m512d r46 = two_runs(table + index[4], table + index[6]), r57 = two_runs(table + index[5], table + index[7]);
-  const __m512d even0 = _mm512_maskz_unpacklo_pd(all_lanes, r02, r13), odd0 = _mm512_maskz_unpackhi_pd(all_lanes, r02, r13);
-  const __m512d even4 = _mm512_maskz_unpacklo_pd(all_lanes, r46, r57), odd4 = _mm512_maskz_unpackhi_pd(all_lanes, r46, r57);
-  four[0] = double8::Vector(_mm512_maskz_shuffle_f64x2(all_lanes, even0, even4, 0x88));
-  four[1] = double8::Vector(_mm512_maskz_shuffle_f64x2(all_lanes, odd0, odd4, 0x88));
-  four[2] = double8::Vector(_mm512_maskz_shuffle_f64x2(all_lanes, even0, even4, 0xdd));
-  four[3] = double8::Vector(_mm512_maskz_shuffle_f64x2(all_lanes, odd0, odd4, 0xdd));
-}
 #else
 template <int W>
 pack<double, W> gather(const double* table, pack<int, W> index) {
   pack<double, W> value;
   for (int l = 0; l < W; ++l) value.set(l, table[index[l]]);
   return value;
-}
-template <int W>
-void gather_four(const double* table, pack<int, W> index, pack<double, W> (&four)[4]) {
-  for (int k = 0; k < 4; ++k) four[k] = gather(table + k, index);
 }
 #endif
 // A third of the exponent, taken on the bits read as a number (at most 8.2 % off), then Newton's method, which squares the error.

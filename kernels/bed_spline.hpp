@@ -64,12 +64,11 @@ class BedSpline {
     const auto i = first_node((p.x - x0_) * inv_spacing_, nx_);
     const SplineWeights<V> a((p.x - x0_) * inv_spacing_ - to_real(i) - 1.0);
     BedPoint<V, 1> s;
-    V c[4];
-    gather_four(level_.data(), i, c);
     for (int k = 0; k < 4; ++k) {
-      s.b += a.w[k] * c[k];
-      s.slope.x += a.d[k] * c[k];
-      if constexpr (curved) s.curvature.xx += a.dd[k] * c[k];
+      const V c = gather(level_.data() + k, i);
+      s.b += a.w[k] * c;
+      s.slope.x += a.d[k] * c;
+      if constexpr (curved) s.curvature.xx += a.dd[k] * c;
     }
     s.slope.x *= inv_spacing_;
     if constexpr (curved) s.curvature.xx *= inv_spacing_ * inv_spacing_;
@@ -84,12 +83,11 @@ class BedSpline {
     BedPoint<V, 2> s;
     for (int l = 0; l < 4; ++l) {
       V row(0.0), row_d(0.0), row_dd(0.0);
-      V c[4];
-      gather_four(level_.data() + l * nx_, corner, c);
       for (int k = 0; k < 4; ++k) {
-        row += a.w[k] * c[k];
-        row_d += a.d[k] * c[k];
-        if constexpr (curved) row_dd += a.dd[k] * c[k];
+        const V c = gather(level_.data() + l * nx_ + k, corner);
+        row += a.w[k] * c;
+        row_d += a.d[k] * c;
+        if constexpr (curved) row_dd += a.dd[k] * c;
       }
       s.b += b.w[l] * row;
       s.slope.x += b.w[l] * row_d;

@@ -4,7 +4,6 @@
 #include <catch2/catch.hpp>
 
 #include <limits>
-#include <vector>
 
 #include "tests/support/cloud.hpp"
 #include "tests/support/pack_border.hpp"
@@ -80,19 +79,6 @@ TEST_CASE("pack: sizes, signs and the larger where a mask says so") {
   CHECK(turned_by(3.0, -1.0) == -3);
   CHECK(larger_where(false, 1.0, 2.0) == 1);
   CHECK(larger_where(true, 1.0, 2.0) == 2);
-}
-
-TEST_CASE("pack: runs of four numbers of a table") {
-  std::vector<double> table(50);
-  for (std::size_t k = 0; k < table.size(); ++k) table[k] = 1.0 / (1 + k);
-  LaneIndex index;
-  for (int l = 0; l < lanes; ++l) index.set(l, 7 * l % 40);
-  Lane four[4];
-  gather_four(table.data(), index, four);
-  for (int k = 0; k < 4; ++k) require_lanes(four[k], [k](int l) { return 1.0 / (1 + 7 * l % 40 + k); });
-  double one[4];
-  gather_four(table.data(), 5, one);
-  CHECK(one[3] == table[8]);
 }
 
 TEST_CASE("pack: select, any and count follow the mask") {
