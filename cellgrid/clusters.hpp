@@ -114,8 +114,8 @@ struct ListRequest {
   double margin = 0.05;          // relative growth of h that the list still covers
 };
 
-// 2-D; a candidate costs 9 operations in each lane, and 1.36 are looked at for one that is listed (water on a lattice).
-inline constexpr Cost list_cost{12, 4, 3};
+// 2-D; a candidate costs 9 operations in each lane, and 1.7 are looked at for one that is listed (water on a lattice).
+inline constexpr Cost list_cost{15.5, 4, 3};
 
 class NeighbourList {
  public:

@@ -95,7 +95,7 @@ class PassList {
   Pass density(const std::string& name) const {
     const auto mean = std::make_shared<double>(1);
     return {name, [w = w_] { w->disturb_density(); }, [w = w_, mean] { *mean = w->density().newton_mean; },
-            [first = walk(swe::density_cost), again = walk(swe::density_again_cost), mean] {
+            [first = walk(swe::density_gradient_cost), again = walk(swe::density_again_cost), mean] {
               Work work = first();
               work.flops += (*mean - 1) * again().flops;
               return work;

@@ -24,8 +24,8 @@ struct DensityReport {
   int capped = 0, floored = 0;
 };
 
-// 2-D, cubic spline, no walls. First: the evaluation with the rate and the gradient; again: each further one.
-inline constexpr Cost density_cost{54, 120, 21}, density_again_cost{38, 40, 0};
+// 2-D, cubic spline, no walls: the first evaluation with d rho/dt, or also with the gradient, and each further one.
+inline constexpr Cost density_gradient_cost{52, 120, 21}, density_rate_cost{43, 100, 18}, density_again_cost{35, 40, 0};
 
 // Reads x, v_pred, m, kh, h0, rho (predicted), h (of the list); writes rho, h, inv_h, pressure, celerity, weight, rate,
 // growth, strain.

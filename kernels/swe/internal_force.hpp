@@ -9,7 +9,7 @@ namespace freshet::swe {
 
 // 2-D, cubic spline, no walls.
 inline Cost internal_force_cost(const AnyStabilisation& stabilisation) {
-  return std::visit([](const auto& s) { return Cost{64 + s.flops, 4, s.velocity_gradient ? 16.0 : 13.0}; }, stabilisation);
+  return std::visit([](const auto& s) { return Cost{61 + s.flops, 8, s.velocity_gradient ? 16.0 : 13.0}; }, stabilisation);
 }
 
 // Reads x, v_pred, m, h0, rho, h, inv_h, pressure, celerity, weight and, where the stabilisation reconstructs, strain and

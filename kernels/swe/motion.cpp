@@ -78,7 +78,7 @@ double accelerate_and_kick(const Particles<D>& p, const MotionOptions<D>& option
       KOKKOS_LAMBDA(int block_index, double& least) {
         const Lanes me = block(block_index, n);
         const Lane h = me.load(f.h);
-        least = smaller(least, smallest(h / (me.load(f.celerity) + me.load(f.signal))));
+        Lane time = h / (me.load(f.celerity) + me.load(f.signal));
         Vec<Lane, D> a = Lane(-1.0) * me.load(f.t);
         if (with_bed) a += bed_acceleration<D>(*bed, me, f, a, g);
         const Lane free = 1.0 - imposed(me);
@@ -91,7 +91,8 @@ double accelerate_and_kick(const Particles<D>& p, const MotionOptions<D>& option
           v = slowed<D>(v, free * drag, Lane(kick_dt));
         }
         me.store(f.v, v);
-        if (walled) least = smaller(least, smallest(free_path(h, v, a)));
+        if (walled) time = smaller(time, free_path(h, v, a));
+        least = smaller(least, smallest(time));
       },
       Kokkos::Min<double>(crossing));
   return crossing;

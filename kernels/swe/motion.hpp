@@ -57,8 +57,8 @@ struct MotionOptions {
 };
 
 // 2-D. Bed: with curvature; its table stays in the cache.
-inline constexpr Cost kick_and_drift_cost{0, 27, 18}, accelerate_cost{0, 17, 11}, bed_cost{0, 215, 5}, bed_slope_cost{0, 150, 3},
-    friction_cost{0, 60, 1};
+inline constexpr Cost kick_and_drift_cost{0, 27, 18}, accelerate_cost{0, 7, 11}, bed_cost{0, 217, 5}, bed_slope_cost{0, 150, 3},
+    friction_cost{0, 40, 1};
 
 // v(t) -> v(t + dt/2), x -> x(t + dt); predicts v, rho, h at t + dt.
 template <int D>

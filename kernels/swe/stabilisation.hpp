@@ -59,7 +59,7 @@ struct NoStabilisation {
 // Artificial viscosity, corrected (2.53): Pi = (-a c mu + b mu^2)/rho with mu = h v.x/(r^2 + 0.01 h^2), approaching pairs only.
 struct ArtificialViscosity {
   static constexpr bool velocity_gradient = false, depth_gradient = false;
-  static constexpr double flops = 16;
+  static constexpr double flops = 15;
   double a, b;
   template <class V>
   KOKKOS_FORCEINLINE_FUNCTION PairPressure<V> operator()(const PairState<V>& p) const {
@@ -72,7 +72,7 @@ struct ArtificialViscosity {
 // Lax-Friedrichs flux, corrected (2.54): Pi = -c v_ij.x_ij / (rho r) with mean c and rho; always on.
 struct LaxFriedrichs {
   static constexpr bool velocity_gradient = false, depth_gradient = false;
-  static constexpr double flops = 5;
+  static constexpr double flops = 6;
   double strength;
   template <class V>
   KOKKOS_FORCEINLINE_FUNCTION PairPressure<V> operator()(const PairState<V>& p) const {
@@ -83,7 +83,7 @@ struct LaxFriedrichs {
 // The same on the reconstructed normal velocity.
 struct LaxFriedrichsMuscl {
   static constexpr bool velocity_gradient = true, depth_gradient = false;
-  static constexpr double flops = 33;
+  static constexpr double flops = 24;
   double strength;
   template <class V>
   KOKKOS_FORCEINLINE_FUNCTION PairPressure<V> operator()(const PairState<V>& p) const {
@@ -108,7 +108,7 @@ KOKKOS_FORCEINLINE_FUNCTION V two_shock_depth(V left, V right, V closing, double
 template <bool Reconstructed>
 struct TwoShockFlux {
   static constexpr bool velocity_gradient = Reconstructed, depth_gradient = Reconstructed;
-  static constexpr double flops = Reconstructed ? 98 : 50;
+  static constexpr double flops = Reconstructed ? 76 : 33;
   double gravity;
   template <class V>
   KOKKOS_FORCEINLINE_FUNCTION PairPressure<V> operator()(const PairState<V>& p) const {

@@ -23,7 +23,7 @@ std::map<std::string, Work> Solver<D>::work() const {
   const double listed = neighbours_.mean_length(clusters_) * clusters_.size() * lanes;
   const double pairs = neighbours_.count_pairs<D>(clusters_, {p.x, p.h, order_.rows(), p.x, p.h, support_, 0});
   const auto walk = [&](const Cost& cost) { return work_of(cost, n, pairs, listed, lanes); };
-  Work density = walk(density_cost);
+  Work density = walk(gradient_ ? density_gradient_cost : density_rate_cost);
   density.flops += (report_.newton_mean - 1) * walk(density_again_cost).flops;
   return {{"cellgrid::extent", work_of(extent_cost, n)},
           {"cellgrid::count", work_of(count_cost, n)},
