@@ -102,6 +102,19 @@ TEST_CASE("a finished run exits with 0 and leaves all its files") {
   CHECK_THAT(again.out, Contains("complete"));
 }
 
+TEST_CASE("profile prints a table or JSON and leaves no files") {
+  const test::Scratch scratch;
+  const Result lines = freshet_with({"profile", scene_in(scratch), "--steps", "3"});
+  CHECK(lines.code == 0);
+  CHECK_THAT(lines.out, Contains("steps 21 to 23") && Contains("run::monitor") && Contains("particle-steps/s"));
+  const Result text = freshet_with({"profile", scene_in(scratch), "--steps=3", "--json"});
+  CHECK(text.code == 0);
+  CHECK_THAT(text.out, Contains("\"steps\": 3,") && Contains("\"label\": \"run::monitor\""));
+  for (const auto& entry : fs::directory_iterator(scratch.path())) CHECK(entry.path().filename() == "scene.toml");
+  CHECK(freshet_with({"profile", scene_in(scratch), "--steps", "none"}).code == 2);
+  CHECK(freshet_with({"profile"}).code == 2);
+}
+
 TEST_CASE("with --quiet a run prints nothing") {
   const test::Scratch scratch;
   const Result run = freshet_with({"run", scene_in(scratch), "--quiet", "--out=" + (scratch / "results")});
