@@ -3,7 +3,8 @@
 namespace freshet::linear {
 namespace {
 
-constexpr int bins_per_cell = 4;  // of dx / 2
+constexpr int bins_per_cell = 4;  // of dx / 2; a divisor of a block's bins, so that a cell is one run
+static_assert(Rows::block_bins % bins_per_cell == 0);
 
 // The mesh over the sorted particles: cells of one row (1-D: the line) times four bins; corners are numbered
 // south-west, south-east, north-west, north-east, edges south, north, west, east.
@@ -26,10 +27,9 @@ struct Mesh {
   // Calls at(i, fx, fy) for the wet particles of a cell; fx, fy: where in the cell, 0 to 1.
   template <class At>
   KOKKOS_FORCEINLINE_FUNCTION void for_each_in(int row, int column, const At& at) const {
-    const int first = row * rows.bins + column * bins_per_cell, last = smaller((column + 1) * bins_per_cell, rows.bins) + row * rows.bins;
+    const int first = column * bins_per_cell, last = smaller(first + bins_per_cell, rows.bins) - 1, end = rows.end(row, last);
     const double west = rows.x0 + column / per_width, south = rows.y0 + row * rows.row_height;
-    const int end = rows.start(last);
-    for (int i = rows.start(first); i < end; ++i) {
+    for (int i = rows.begin(row, first); i < end; ++i) {
       if (!(mass(i) > 0)) continue;
       const double fx = (x.x(i) - west) * per_width;
       double fy = 0;
