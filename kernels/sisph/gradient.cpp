@@ -88,22 +88,21 @@ struct Velocities {
   VelocityGradient<D> out;
 
   KOKKOS_FUNCTION void operator()(int k) const {
-    constexpr double thin = 0.2;  // of the deepest neighbour
+    constexpr double thin = 0.2;  // of the deeper of two
     const int s = active(k);
     const Lanes me = g.pairs(s);
     const Vec<Lane, D> vi = me.load(water.v);
     const Lane hi = me.load(water.depth);
     Vec<Lane, D> of_u, of_v;
-    Lane least = hi, most = hi;
+    Lane least_share = select(Lane(0.0) < hi, Lane(1.0), Lane(0.0));
     g.pairs.for_each(s, [&](int e, LaneIndex j) {
       const Lane hj = gather(water.depth.data(), j), w = PairView::load(g.weight, e);
       const Vec<Lane, D> n = PairView::load(g.n, e), difference = gather(water.v, j) - vi;
-      least = smaller(least, hj);
-      most = larger(most, hj);
+      least_share = smaller(least_share, smaller(hi, hj) / (larger(hi, hj) + 1e-300));
       of_u += (w * difference.x) * n;
       if constexpr (D == 2) of_v += (w * difference.y) * n;
     });
-    const Lane kept = select(thin * most < least, free_lanes(g, me), Lane(0.0));
+    const Lane kept = select(Lane(thin) < least_share, free_lanes(g, me), Lane(0.0));
     const Sym<Lane, D> inverse = me.load(g.inverse);
     me.store(out.u, kept * (inverse * of_u));
     if constexpr (D == 2) me.store(out.v, kept * (inverse * of_v));

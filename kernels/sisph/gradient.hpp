@@ -10,8 +10,8 @@ template <int D>
 void surface_gradient(const Geometry<D>& g, const SliceList& active, const Field<double>& depth, const Field<double>& bed,
                       const VecField<double, D>& gradient, bool drying);
 
-// The velocity gradient, row by row: of u, then (2-D) of v. Zero where a neighbour is dry or far shallower (1/5) than another
-// or than the particle: slopes in thin films would throw water about.
+// The velocity gradient, row by row: of u, then (2-D) of v. Zero where the particle or a neighbour is dry or one
+// has less than a fifth of the other's depth: slopes in thin films would throw water about.
 template <int D>
 struct VelocityGradient {
   VecField<double, D> u, v;  // 1/s; 1-D: u alone

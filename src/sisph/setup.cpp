@@ -165,6 +165,7 @@ void Solver<D>::build_momentum() {
   active_->find(particles_.real("depth"));
   rim_.emplace(geometry_);
   for (VecField<double, D>* v : {&slope_, &explicit_, &carried_, &before_, &end_}) *v = scratch<D>("sisph.velocity", n);
+  push(water().v, 0, carried_);  // for good where all of a slice is held
   const bool by_fluxes = sisph.momentum == Momentum::mass_flux || (sisph.momentum == Momentum::automatic && active_->drying());
   if (!by_fluxes && active_->drying())
     throw SceneError("sisph.momentum = \"semi-lagrangian\" needs water everywhere, and " + std::to_string(active_->dry()) +

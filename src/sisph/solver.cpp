@@ -87,7 +87,7 @@ void Solver<D>::push(const VecField<double, D>& from, double impulse, const VecF
 template <int D>
 void Solver<D>::blend() {
   const double theta = scene_.sisph.theta;
-  const VecField<double, D> carried = carried_, v = water().v, before = before_, start = explicit_;
+  const VecField<double, D> carried = carried_, v = water().v, before = before_;
   Kokkos::parallel_for("sisph::blend", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) {
         put(before, i, theta * at(carried, i) + (1 - theta) * at(v, i));
       });
@@ -141,7 +141,8 @@ double Solver<D>::stable_dt() const {
   constexpr double mass_flux_limit = 0.7;  // |v| dt / dx
   const Sisph& sisph = scene_.sisph;
   const double dx = scene_.water.spacing, limit = sisph.advection > 0 ? sisph.advection : fluxes_ ? mass_flux_limit : 1e300;
-  const double wanted = scene_.time_step > 0 ? scene_.time_step : sisph.courant * dx / std::max(celerity_, 1e-300);
+  constexpr double rounding = 1 + 1e-9;  // a whole number of steps must not become one more
+  const double wanted = scene_.time_step > 0 ? rounding * scene_.time_step : sisph.courant * dx / std::max(celerity_, 1e-300);
   return std::min(wanted, limit * dx / std::max(speed_, 1e-300));
 }
 
