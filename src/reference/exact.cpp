@@ -60,6 +60,22 @@ class ThackerPlanar : public Exact {
   double xi_, omega_;
 };
 
+class ThackerSloshing : public Exact {
+ public:
+  ThackerSloshing(const Bowl& bowl, double xi, double gravity)
+      : bowl_(bowl), xi_(xi), omega_(std::sqrt(2 * gravity * bowl.depth0) / bowl.radius) {}
+
+  FlowState at(double x, double, double t) const override {
+    const double off = (x - bowl_.x0 - xi_ * std::cos(omega_ * t)) / bowl_.radius;
+    return {std::max(0.0, bowl_.depth0 * (1 - off * off)), -xi_ * omega_ * std::sin(omega_ * t), 0};
+  }
+  double period() const override { return 2 * pi / omega_; }
+
+ private:
+  Bowl bowl_;
+  double xi_, omega_;
+};
+
 // The surface is a paraboloid that bulges and flattens with w = sqrt(8 g z0) / L.
 class ThackerRadial : public Exact {
  public:
@@ -121,6 +137,10 @@ std::unique_ptr<Exact> stoker(double left_depth, double right_depth, double dam,
 
 std::unique_ptr<Exact> thacker_planar(const Bowl& bowl, double xi, double gravity) {
   return std::make_unique<ThackerPlanar>(bowl, xi, gravity);
+}
+
+std::unique_ptr<Exact> thacker_sloshing(const Bowl& bowl, double xi, double gravity) {
+  return std::make_unique<ThackerSloshing>(bowl, xi, gravity);
 }
 
 std::unique_ptr<Exact> thacker_radial(const Bowl& bowl, double amplitude, double gravity) {

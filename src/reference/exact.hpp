@@ -33,6 +33,8 @@ struct Bowl {
 };
 // Planar surface, thesis (2.61): displacement xi [m].
 std::unique_ptr<Exact> thacker_planar(const Bowl& bowl, double xi, double gravity);
+// The same in 1-D: the surface stays straight and sloshes, initially displaced by xi [m]; at rest then.
+std::unique_ptr<Exact> thacker_sloshing(const Bowl& bowl, double xi, double gravity);
 // Axisymmetric surface: amplitude A in (0, 1).
 std::unique_ptr<Exact> thacker_radial(const Bowl& bowl, double amplitude, double gravity);
 

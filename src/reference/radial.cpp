@@ -39,8 +39,8 @@ Flux hll(double dl, double ul, double dr, double ur, double g) {
 
 class RadialSweep {
  public:
-  RadialSweep(const std::function<double(double)>& initial, double extent, int rings, double gravity)
-      : n_(rings), ring_(extent / rings), g_(gravity), now_(empty()), speed_(now_.depth), depth_slope_(now_.depth),
+  RadialSweep(const std::function<double(double)>& initial, double extent, int rings, double gravity, bool plane = false)
+      : plane_(plane), n_(rings), ring_(extent / rings), g_(gravity), now_(empty()), speed_(now_.depth), depth_slope_(now_.depth),
         speed_slope_(now_.depth), flux_(now_.depth.size()) {
     for (int k = 0; k < n_; ++k) now_.depth[at(k)] = mean(initial, k);
     least_ = dry * *std::max_element(now_.depth.begin(), now_.depth.end());
@@ -63,7 +63,7 @@ class RadialSweep {
 
  private:
   static std::size_t at(int k) { return static_cast<std::size_t>(k + ghosts); }
-  double radius(int face) const { return face * ring_; }
+  double radius(int face) const { return plane_ ? 1 : face * ring_; }
   Water empty() const {
     const std::vector<double> zero(static_cast<std::size_t>(n_ + 2 * ghosts));
     return {zero, zero};
@@ -75,8 +75,8 @@ class RadialSweep {
     double sum = 0, weight = 0;
     for (int p = 0; p < parts; ++p) {
       const double r = (k + (p + 0.5) / parts) * ring_;
-      sum += initial(r) * r;
-      weight += r;
+      sum += initial(r) * (plane_ ? 1 : r);
+      weight += plane_ ? 1 : r;
     }
     return sum / weight;
   }
@@ -116,7 +116,7 @@ class RadialSweep {
     for (int k = 0; k < n_; ++k) {
       const std::size_t i = at(k);
       const double in = radius(k), out = radius(k + 1), share = dt / (0.5 * (in + out) * ring_);
-      const double side = 0.5 * g_ * from.depth[i] * from.depth[i] * ring_;
+      const double side = plane_ ? 0 : 0.5 * g_ * from.depth[i] * from.depth[i] * ring_;
       to.depth[i] = std::max(0.0, from.depth[i] - share * (out * flux_[i + 1].mass - in * flux_[i].mass));
       to.discharge[i] = from.discharge[i] - share * (out * flux_[i + 1].momentum - in * flux_[i].momentum - side);
       if (to.depth[i] <= least_) to.discharge[i] = 0;
@@ -134,11 +134,42 @@ class RadialSweep {
     }
   }
 
+  bool plane_;  // else rings
   int n_;
   double ring_, g_, least_ = 0;
   Water now_, ahead_ = empty();
   std::vector<double> speed_, depth_slope_, speed_slope_;
   std::vector<Flux> flux_;
+};
+
+// Seen from the uniform flow the hump starts at rest.
+class Hump : public Exact {
+ public:
+  Hump(const GaussianHump& hump, double gravity, int rings) : hump_(hump), gravity_(gravity), rings_(rings) {}
+
+  FlowState at(double x, double y, double t) const override {
+    const double rx = x - hump_.x0 - hump_.u * t, ry = hump_.plane ? 0 : y - hump_.y0 - hump_.v * t;
+    if (t <= 0) return {initial(std::hypot(rx, ry)), hump_.u, hump_.v};
+    if (t != time_) solve(t);
+    const FlowState state = profile_.at(rx, ry);
+    return {state.depth, state.u + hump_.u, state.v + hump_.v};
+  }
+
+ private:
+  double initial(double r) const { return hump_.level + hump_.amplitude * std::exp(-0.5 * r * r / (hump_.sigma * hump_.sigma)); }
+  // Seven sigma away the hump is below 3e-11 of itself; its waves are at most as fast as that of the highest water.
+  void solve(double t) const {
+    const double extent = 7 * hump_.sigma + 1.1 * std::sqrt(gravity_ * (hump_.level + std::max(0.0, hump_.amplitude))) * t;
+    const auto start = [this](double r) { return initial(r); };
+    profile_ = hump_.plane ? plane_flow(start, extent, t, rings_, gravity_) : radial_flow(start, extent, t, rings_, gravity_);
+    time_ = t;
+  }
+
+  GaussianHump hump_;
+  double gravity_;
+  int rings_;
+  mutable double time_ = 0;  // s, of the profile
+  mutable RadialProfile profile_;
 };
 
 class RadialDamBreak : public Exact {
@@ -186,6 +217,16 @@ RadialProfile radial_flow(const std::function<double(double)>& initial, double e
   RadialSweep sweep(initial, extent, rings, gravity);
   sweep.run(t);
   return sweep.profile();
+}
+
+RadialProfile plane_flow(const std::function<double(double)>& initial, double extent, double t, int rings, double gravity) {
+  RadialSweep sweep(initial, extent, rings, gravity, true);
+  sweep.run(t);
+  return sweep.profile();
+}
+
+std::unique_ptr<Exact> gaussian_hump(const GaussianHump& hump, double gravity, int rings) {
+  return std::make_unique<Hump>(hump, gravity, rings);
 }
 
 // No wave is faster than the tip on a dry bed, 2 c.

@@ -5,6 +5,7 @@
 #include "src/reference/bump.hpp"
 #include "src/reference/exact.hpp"
 #include "src/reference/radial.hpp"
+#include "src/reference/riemann.hpp"
 #include "src/reference/ritter.hpp"
 #include "src/scene/sections.hpp"
 #include "src/scene/shapes.hpp"
@@ -58,7 +59,9 @@ std::string described(const Bowl& bowl) {
 Solution read_planar(Table& table, const Scene& scene) {
   const Bowl bowl = read_bowl(table, scene);
   const double xi = table.number("xi", "m").positive().required(1);
-  return {thacker_planar(bowl, xi, scene.gravity), described(bowl) + ", xi = " + shown(xi) + " m"};
+  const bool plane = scene.domain.dimension == 1;
+  return {plane ? thacker_sloshing(bowl, xi, scene.gravity) : thacker_planar(bowl, xi, scene.gravity),
+          described(bowl) + ", xi = " + shown(xi) + " m"};
 }
 
 Solution read_radial(Table& table, const Scene& scene) {
@@ -72,6 +75,39 @@ Solution read_radial(Table& table, const Scene& scene) {
 Solution read_rest(Table& table, const Scene& scene) {
   const double level = table.number("level", "m").required();
   return {still_water(level, scene.bed.elevation), "level " + shown(level) + " m", 0, 1, true};
+}
+
+Solution read_hump(Table& table, const Scene& scene) {
+  GaussianHump hump{};
+  hump.plane = scene.domain.dimension == 1;
+  hump.level = table.number("level", "m").positive().required(1);
+  hump.amplitude = table.number("amplitude", "m")
+                       .check([&hump](double a) { return a > -hump.level; }, "above minus 'level' (" + shown(hump.level) + ")")
+                       .required(0.1);
+  hump.sigma = table.number("sigma", "m").positive().required(0.1);
+  const Point centre = table.point("centre", scene.domain.dimension).otherwise({0, 0});
+  hump.x0 = centre[0], hump.y0 = centre[1];
+  const std::vector<double> flow = table.numbers("velocity", "numbers in m/s").otherwise({});
+  if (!flow.empty()) hump.u = flow[0];
+  if (flow.size() > 1) hump.v = flow[1];
+  if (scene.bed.elevation) table.error("type", "the Gaussian hump has a flat bed", "leave out [bed]");
+  return {gaussian_hump(hump, scene.gravity),
+          shown(hump.amplitude) + " m on " + shown(hump.level) + " m, sigma = " + shown(hump.sigma) + " m"};
+}
+
+Solution read_riemann(Table& table, const Scene& scene) {
+  const auto state = [&](const char* key) {
+    Value<std::vector<double>> given = table.numbers(key, "two numbers: depth in m, velocity in m/s");
+    const std::vector<double> numbers = given.required({1, 0});
+    if (numbers.size() == 2 && numbers[0] > 0) return RiemannState{numbers[0], numbers[1]};
+    given.fail("'" + table.path_of(key) + "' must be [depth, velocity] with a depth above 0");
+    return RiemannState{1, 0};
+  };
+  const RiemannState left = state("left"), right = state("right");
+  const double at = table.number("at", "m").otherwise(0);
+  if (scene.bed.elevation) table.error("type", "the Riemann problem has a flat bed", "leave out [bed]");
+  return {riemann(left, right, at, scene.gravity), shown(left.depth) + " m, " + shown(left.u) + " m/s | " + shown(right.depth) +
+                                                       " m, " + shown(right.u) + " m/s, at " + shown(at) + " m"};
 }
 
 Solution read_radial_dam(Table& table, const Scene& scene) {
@@ -129,6 +165,8 @@ Solution read_exact(Table& table, const Scene& scene) {
                                                      {"thacker-planar", read_planar},
                                                      {"thacker-radial", read_radial},
                                                      {"radial-dam-break", read_radial_dam},
+                                                     {"gaussian-hump", read_hump},
+                                                     {"riemann", read_riemann},
                                                      {"beach-wave", read_beach},
                                                      {"rest", read_rest},
                                                      {"bump", read_bump},

@@ -108,7 +108,15 @@ std::string profile(const Transect& profile, const Domain& domain) {
          brief(measured.t.back()) + " m";
 }
 
+std::string sisph_numerics(const Scene& scene) {
+  const Sisph& sisph = scene.sisph;
+  const std::string step = scene.time_step > 0 ? "time step " + brief(scene.time_step) + " s" : "celerity Courant number " + brief(sisph.courant);
+  return "sisph, " + name_in(kernel_names(), sisph.kernel) + " kernel, l/dx " + brief(sisph.smoothing) + ", theta " + brief(sisph.theta) + ", Picard " + std::to_string(sisph.picard) +
+         ", " + step;
+}
+
 std::string numerics(const Scene& scene) {
+  if (scene.method == "sisph") return sisph_numerics(scene);
   const Sph& sph = scene.sph;
   std::string out = scene.method + ", " + name_in(kernel_names(), sph.kernel) + " kernel" +
                     (sph.lattice_correction ? " (lattice correction)" : "") + ", h/dx " + brief(sph.eta) + ", CFL " +

@@ -17,6 +17,13 @@ const Names<Walling>& walling_names() {
   return names;
 }
 
+const Names<Sisph::Momentum>& momentum_names() {
+  using Momentum = Sisph::Momentum;
+  static const Names<Momentum> names{
+      {"automatic", Momentum::automatic}, {"semi-lagrangian", Momentum::semi_lagrangian}, {"mass-flux", Momentum::mass_flux}};
+  return names;
+}
+
 std::string name_of(Stabilisation stabilisation) {
   switch (stabilisation) {
     case Stabilisation::none: return "not stabilised";

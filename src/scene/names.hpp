@@ -13,6 +13,7 @@ using Names = std::vector<std::pair<std::string, E>>;
 
 const Names<KernelName>& kernel_names();
 const Names<Walling>& walling_names();
+const Names<Sisph::Momentum>& momentum_names();
 std::string name_of(Stabilisation stabilisation);  // "Lax-Friedrichs with MUSCL"
 
 template <class E>

@@ -11,9 +11,7 @@ void read_scene_section(Table& section, Scene& scene) {
   Value<std::string> method =
       section.choice<std::string>("method", {{"sph-swe", "sph-swe"}, {"sisph", "sisph"}, {"fpm", "fpm"}});
   scene.method = method.otherwise(scene.method);
-  if (scene.method != "sph-swe") {
-    method.fail("the method '" + scene.method + "' is not built yet", "use method = \"sph-swe\"");
-  }
+  if (scene.method == "fpm") method.fail("the method 'fpm' is not built yet", "use method = \"sph-swe\" or \"sisph\"");
   scene.gravity = section.number("gravity", "m/s2").positive().otherwise(scene.gravity);
   section.context().gravity = scene.gravity;
 }
@@ -67,6 +65,10 @@ void read_time(Table& section, const ComparePlan& compare, Scene& scene) {
                   .positive()
                   .check([](double cfl) { return cfl <= 2; }, "at most 2")
                   .otherwise(scene.cfl);
+  Value<double> step = section.number("dt", "s").positive();
+  if (step.given() && scene.method == "sph-swe")
+    step.fail("'time.dt' belongs to the method \"sisph\"; the step of \"sph-swe\" follows from time.cfl", "remove it");
+  scene.time_step = step.otherwise(scene.time_step);
 }
 
 void read_output(Table& section, Scene& scene) {

@@ -27,12 +27,13 @@ void read_each(Table& root, const std::string& key, Scene& scene, Reader reader)
 void read_sections(Table& root, Scene& scene) {
   Table head = root.table("scene"), domain = root.table("domain"), sph = root.table("sph");
   Table water = root.table("water"), bed = root.table("bed"), compare = root.table("compare");
-  Table split = root.table("split"), merge = root.table("merge");
+  Table sisph = root.table("sisph"), split = root.table("split"), merge = root.table("merge");
   Table time = root.table("time"), output = root.table("output"), limits = root.table("limits");
   Table raster = root.table("raster");
   read_scene_section(head, scene);
   read_domain(domain, scene);
   const bool acceleration_named = read_sph(sph, scene);
+  read_sisph(sisph, scene);
   read_spacing(water, scene);
   read_bed(bed, scene);
   read_split(split, scene);

@@ -129,6 +129,24 @@ struct Sph {
   bool well_balanced = false;  // still water over any bed stays at rest to round-off (kernels/swe/well_balanced.hpp)
 };
 
+// The semi-implicit method on particles at rest.
+struct Sisph {
+  enum class Momentum { automatic, semi_lagrangian, mass_flux };  // automatic: mass_flux where some place starts dry
+  struct Solver {
+    double tolerance;  // of the residual that a step starts from
+    int most;          // iterations
+  };
+  double smoothing = 1.5;  // l / dx
+  KernelName kernel = KernelName::cubic;
+  double theta = 0.55;     // implicitness
+  int picard = 2;
+  Momentum momentum = Momentum::automatic;
+  bool closure = true;     // pair areas closed: sum_j A_ij n_ij = 0
+  Solver cg{1e-6, 2000}, newton{1e-6, 60};
+  double courant = 1;      // celerity x dt / dx, where the scene names no time.dt
+  double advection = 0;    // |v| dt / dx at most; 0 = by the momentum: none (semi-Lagrangian), 0.7 (mass flux)
+};
+
 // A limit on the area that a particle covers, in spacing^D; it may differ by region.
 struct AreaLimit {
   struct Region {
@@ -197,6 +215,7 @@ struct Scene {
   double gravity = 9.81;             // m/s2
   std::optional<Manning> manning;
   double cfl = 0.4;
+  double time_step = 0;              // s, fixed (sisph); 0 = follows from the flow
   double end_time = 0;               // s
   Domain domain;
   Bed bed;
@@ -207,6 +226,7 @@ struct Scene {
   std::vector<RunUp> run_ups;
   std::vector<Transect> profiles;
   Sph sph;
+  Sisph sisph;
   std::optional<Split> split;
   std::optional<Merge> merge;
   Compare compare;

@@ -14,6 +14,8 @@ void read_domain(Table& section, Scene& scene);         // [domain] box
 // [sph]. The default of `acceleration` depends on [compare]: false where the scene does not name it.
 bool read_sph(Table& section, Scene& scene);
 
+void read_sisph(Table& section, Scene& scene);  // [sisph]
+
 // [bed]. Needs the domain, water.spacing and sph.eta.
 void read_bed(Table& section, Scene& scene);
 

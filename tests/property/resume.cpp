@@ -154,6 +154,13 @@ TEST_CASE("a wet dam break resumes to the bit") {
   check_pieces(scene, make_method, GENERATE(5, 23));
 }
 
+TEST_CASE("semi-implicit runs resume to the bit") {
+  const Scene wet = read_scene("cases/sisph_bump.toml", {"water.spacing=0.04", "water.disorder=0.2", "time.end=0.03"});
+  check_pieces(wet, make_method, GENERATE(5, 13));
+  const Scene drying = read_scene("cases/thacker.toml", {"scene.method=sisph", "water.spacing=250", "time.end=300"});
+  check_pieces(drying, make_method, 4);
+}
+
 TEST_CASE("a dam break that splits and merges resumes to the bit") {
   const Scene scene = read_scene("cases/dam_break_dry_strip.toml",
                                  {"water.spacing=20", "time.end=24", "split.area=1.5", "split.velocity=linear",

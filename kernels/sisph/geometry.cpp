@@ -1,0 +1,153 @@
+#include "kernels/sisph/geometry.hpp"
+
+#include <cmath>
+
+namespace freshet::sisph {
+namespace {
+
+template <int D>
+SymField<double, D> sym_field(const std::string& name, size_t n);
+template <>
+SymField<double, 1> sym_field<1>(const std::string& name, size_t n) {
+  return {Field<double>(name, n)};
+}
+template <>
+SymField<double, 2> sym_field<2>(const std::string& name, size_t n) {
+  return {Field<double>(name + "_xx", n), Field<double>(name + "_xy", n), Field<double>(name + "_yy", n)};
+}
+
+// n, d, G (in weight) of every pair, and omega before it is scaled.
+template <int D, class Kernel>
+struct Measure {
+  Geometry<D> g;
+  Field<double> h;
+  Kernel kernel;
+
+  KOKKOS_FUNCTION void operator()(int s) const {
+    const Lanes me = g.pairs(s);
+    const Vec<Lane, D> xi = me.load(g.x);
+    const Lane hi = me.load(h);
+    Lane sum = kernel.at(Lane(0.0)).w / power<D>(hi);
+    g.pairs.for_each(s, [&](int e, LaneIndex j) {
+      const Vec<Lane, D> d = gather(g.x, j) - xi;
+      const Lane r2 = dot(d, d), inv_r = rsqrt(r2 + tiny_square), r = r2 * inv_r;
+      const Lane inv_h = 2.0 / (hi + gather(h.data(), j)), norm = power<D>(inv_h);
+      const KernelValue<Lane> k = kernel.at(r * inv_h);
+      const Lane here = select(Lane(0.0) < r2, Lane(1.0), Lane(0.0));  // not padding
+      PairView::store(g.n, e, inv_r * d);
+      PairView::store(g.distance, e, r + (1.0 - here));  // padding: 1 m, so that it can be divided by
+      PairView::store(g.weight, e, -here * norm * inv_h * k.dw);
+      sum += here * norm * k.w;
+    });
+    me.store(g.omega, 1.0 / sum);
+  }
+};
+
+template <int D>
+struct Moments {
+  Geometry<D> g;
+  double regular;
+
+  KOKKOS_FUNCTION void operator()(int s) const {
+    const Lanes me = g.pairs(s);
+    Sym<Lane, D> sum;
+    g.pairs.for_each(s, [&](int e, LaneIndex j) {
+      const Lane w = PairView::load(g.weight, e) * gather(g.omega.data(), j) * PairView::load(g.distance, e);
+      sum += outer(PairView::load(g.n, e), w);
+    });
+    const Lane free = free_lanes(g, me);
+    me.store(g.moment, select(Lane(0.5) < free, (1.0 / D) * trace(sum), Lane(regular)));
+    me.store(g.inverse, inverted(sum));
+  }
+};
+
+template <int D>
+struct Areas {
+  Geometry<D> g;
+
+  KOKKOS_FUNCTION void operator()(int s) const {
+    const Lanes me = g.pairs(s);
+    const Lane omega = me.load(g.omega), per = 1.0 / me.load(g.moment);
+    g.pairs.for_each(s, [&](int e, LaneIndex j) {
+      const Lane slope = PairView::load(g.weight, e), other = gather(g.omega.data(), j);
+      PairView::store(g.area, e, (omega * other) * slope * (per + 1.0 / gather(g.moment.data(), j)));
+      PairView::store(g.weight, e, other * slope);
+    });
+  }
+};
+
+// omega of free particles scaled to `cell` on average; held ones have just that.
+template <int D>
+void scale_areas(const Geometry<D>& g, double cell) {
+  const int n = g.pairs.particles;
+  const Field<double> omega = g.omega, free = g.free;
+  OrderedSums sums;
+  const auto sum = sums.sum<2>("sisph::covered", n, KOKKOS_LAMBDA(int i) {
+    return Kokkos::Array<double, 2>{{free(i) * omega(i), free(i)}};
+  });
+  const double factor = sum[0] > 0 ? cell * sum[1] / sum[0] : 1;
+  Kokkos::parallel_for("sisph::scale_areas", Range(0, n),
+                       KOKKOS_LAMBDA(int i) { omega(i) = free(i) > 0.5 ? factor * omega(i) : cell; });
+}
+
+template <int D>
+void list_free_slices(Geometry<D>& g, const Field<int>& held) {
+  const PairView pairs = g.pairs;
+  const Field<double> free = g.free;
+  Kokkos::parallel_for("sisph::mark_free", Range(0, pairs.particles), KOKKOS_LAMBDA(int i) { free(i) = held(i) > 0 ? 0.0 : 1.0; });
+  g.slices.list = Field<int>("sisph.slices", static_cast<size_t>(pairs.slices()));
+  const Field<int> list = g.slices.list;
+  Kokkos::parallel_scan("sisph::list_free", Range(0, pairs.slices()), KOKKOS_LAMBDA(int s, int& count, bool last) {
+        const Lanes me = pairs(s);
+        if (largest(me.load(free)) < 0.5) return;
+        if (last) list(count) = s;
+        ++count;
+      }, g.slices.count);
+}
+
+template <int D>
+double support_of(const AnyKernel<D>& kernel) {
+  return std::visit([](const auto& k) { return k.support; }, kernel);
+}
+
+}  // namespace
+
+template <int D>
+double lattice_moment(const AnyKernel<D>& kernel, double h, double spacing) {
+  const int reach = static_cast<int>(support_of<D>(kernel) * h / spacing) + 1, across = D == 2 ? reach : 0;
+  double sum = 0;
+  for (int j = -across; j <= across; ++j)
+    for (int i = -reach; i <= reach; ++i) {
+      const double r = spacing * std::sqrt(static_cast<double>(i * i + j * j));
+      sum -= r / (power<D>(h) * h) * std::visit([&](const auto& k) { return k.at(r / h).dw; }, kernel);
+    }
+  return sum * power<D>(spacing) / D;
+}
+
+template <int D>
+Geometry<D> measure_geometry(int particles, const AnyKernel<D>& kernel, const GeometryRequest<D>& request) {
+  Pairs pairs;
+  pairs.build<D>(particles, {request.rows, request.x, request.h, support_of<D>(kernel)});
+  const auto field = [&](const std::string& label) { return Field<double>(label, static_cast<size_t>(particles) + lanes); };
+  Geometry<D> g{pairs.view(), pairs.template vector_coefficient<D>("sisph.n"), pairs.coefficient("sisph.distance"),
+                pairs.coefficient("sisph.weight"), pairs.coefficient("sisph.area"), request.x, field("sisph.omega"),
+                field("sisph.moment"), field("sisph.free"), sym_field<D>("sisph.inverse", static_cast<size_t>(particles) + lanes), {}};
+  list_free_slices(g, request.held);
+  const Range all(0, g.pairs.slices());
+  std::visit([&](const auto& k) {
+    using Kernel = std::decay_t<decltype(k)>;
+    Kokkos::parallel_for("sisph::measure", all, Measure<D, Kernel>{g, request.h, k});
+  }, kernel);
+  scale_areas(g, request.cell);
+  const double h = request.h.extent(0) > 0 ? on_host(Kokkos::subview(request.h, std::make_pair(0, 1)))(0) : request.spacing;
+  Kokkos::parallel_for("sisph::moments", all, Moments<D>{g, lattice_moment<D>(kernel, h, request.spacing)});
+  Kokkos::parallel_for("sisph::areas", all, Areas<D>{g});
+  return g;
+}
+
+template Geometry<1> measure_geometry(int, const AnyKernel<1>&, const GeometryRequest<1>&);
+template Geometry<2> measure_geometry(int, const AnyKernel<2>&, const GeometryRequest<2>&);
+template double lattice_moment<1>(const AnyKernel<1>&, double, double);
+template double lattice_moment<2>(const AnyKernel<2>&, double, double);
+
+}  // namespace freshet::sisph

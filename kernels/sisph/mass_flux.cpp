@@ -1,0 +1,183 @@
+#include "kernels/sisph/mass_flux.hpp"
+
+namespace freshet::sisph {
+namespace {
+
+// F_ij = f_ij - (a_ij / dt)(eta_j - eta_i)
+template <int D>
+struct Fluxes {
+  Geometry<D> g;
+  SliceList active;
+  Field<double> a, level, flux;
+  double per_dt;
+
+  KOKKOS_FUNCTION void operator()(int k) const {
+    const int s = active(k);
+    const Lane eta = g.pairs(s).load(level);
+    g.pairs.for_each(s, [&](int e, LaneIndex j) {
+      const Lane drawn = (per_dt * PairView::load(a, e)) * (gather(level.data(), j) - eta);
+      PairView::store(flux, e, PairView::load(flux, e) - drawn);
+    });
+  }
+};
+
+// H^{n+1} = H^n - (dt / omega) sum_j F_ij, the share of the outflow that there is water for, and the least depth.
+template <int D>
+struct Depths {
+  Geometry<D> g;
+  SliceList active;
+  Field<double> before, flux, depth, share;
+  double dt;
+
+  KOKKOS_FUNCTION void operator()(int k, double& least) const {
+    const int s = active(k);
+    const Lanes me = g.pairs(s);
+    Lane in(0.0), out(0.0);
+    g.pairs.for_each(s, [&](int e, LaneIndex) {
+      const Lane f = PairView::load(flux, e);
+      out += larger(f, Lane(0.0));
+      in += larger(-f, Lane(0.0));
+    });
+    const Lane volume = me.load(g.omega) * me.load(before), free = free_lanes(g, me), has = volume + dt * in;
+    const Lane after = select(Lane(0.5) < free, (has - dt * out) / me.load(g.omega), me.load(before));
+    me.store(depth, after);
+    me.store(share, select((after < Lane(0.0)) & (Lane(0.5) < free), has / (dt * out + 1e-300), Lane(1.0)));
+    least = smaller(least, smallest(after));
+  }
+};
+
+template <int D>
+struct ScaleOutflow {
+  Geometry<D> g;
+  SliceList active;
+  Field<double> flux, share;
+
+  KOKKOS_FUNCTION void operator()(int k) const {
+    const int s = active(k);
+    const Lane mine = g.pairs(s).load(share);
+    g.pairs.for_each(s, [&](int e, LaneIndex j) {
+      const Lane f = PairView::load(flux, e);
+      PairView::store(flux, e, f * select(Lane(0.0) < f, mine, gather(share.data(), j)));
+    });
+  }
+};
+
+// The part of the way to the face that the donor's gradient adds: half of van Leer's mean of the difference to the receiver
+// and the difference that lies upwind of it.
+KOKKOS_FORCEINLINE_FUNCTION Lane to_face(Lane difference, Lane twice_along) {
+  const Lane product = difference * (twice_along - difference);
+  return select(Lane(0.0) < product, product / (twice_along + select(Lane(0.0) < twice_along, Lane(1e-300), Lane(-1e-300))), Lane(0.0));
+}
+
+KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 1> face_velocity(const Vec<Lane, 1>& donor, const Vec<Lane, 1>& difference, const Vec<Lane, 1>& way,
+                                                       const Vec<Lane, 1>& du, const Vec<Lane, 1>&) {
+  return {donor.x + to_face(difference.x, 2.0 * dot(du, way))};
+}
+KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 2> face_velocity(const Vec<Lane, 2>& donor, const Vec<Lane, 2>& difference, const Vec<Lane, 2>& way,
+                                                       const Vec<Lane, 2>& du, const Vec<Lane, 2>& dv) {
+  return {donor.x + to_face(difference.x, 2.0 * dot(du, way)), donor.y + to_face(difference.y, 2.0 * dot(dv, way))};
+}
+template <class Mask>
+KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 1> select(Mask m, const Vec<Lane, 1>& a, const Vec<Lane, 1>& b) {
+  return {freshet::select(m, a.x, b.x)};
+}
+template <class Mask>
+KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 2> select(Mask m, const Vec<Lane, 2>& a, const Vec<Lane, 2>& b) {
+  return {freshet::select(m, a.x, b.x), freshet::select(m, a.y, b.y)};
+}
+
+template <int D>
+struct Advect {
+  Geometry<D> g;
+  SliceList active;
+  Water<D> water;
+  VelocityGradient<D> gradient;
+  Field<double> flux, depth;
+  double dt;
+  VecField<double, D> advected;
+
+  KOKKOS_FUNCTION void operator()(int k) const {
+    using freshet::select;
+    const int s = active(k);
+    const Lanes me = g.pairs(s);
+    const Vec<Lane, D> vi = me.load(water.v), dui = me.load(gradient.u);
+    Vec<Lane, D> dvi;
+    if constexpr (D == 2) dvi = me.load(gradient.v);
+    Lane in(0.0);
+    Vec<Lane, D> carried;
+    g.pairs.for_each(s, [&](int e, LaneIndex j) {
+      const Lane f = PairView::load(flux, e);
+      const auto inward = f < Lane(0.0);
+      const Lane d = PairView::load(g.distance, e), towards = select(inward, -d, d);
+      const Vec<Lane, D> vj = gather(water.v, j), du = sisph::select(inward, gather(gradient.u, j), dui);
+      Vec<Lane, D> dv;
+      if constexpr (D == 2) dv = sisph::select(inward, gather(gradient.v, j), dvi);
+      const Vec<Lane, D> donor = sisph::select(inward, vj, vi), difference = sisph::select(inward, vi - vj, vj - vi);
+      const Vec<Lane, D> face = face_velocity(donor, difference, towards * PairView::load(g.n, e), du, dv);
+      in += larger(-f, Lane(0.0));
+      carried += (-f) * (face - vi);
+    });
+    // keep v + dt sum_in |F| v_f - dt sum_out F (v_f - v), less v (keep + dt sum_in |F|)
+    const Lane mass = me.load(g.omega) * larger(me.load(depth), Lane(0.0)), whole = larger(mass, dt * in);
+    const Lane per = select(Lane(0.0) < whole, dt / (whole + 1e-300), Lane(0.0));
+    me.store(advected, vi + (free_lanes(g, me) * per) * carried);
+  }
+};
+
+}  // namespace
+
+template <int D>
+MassFlux<D>::MassFlux(const Geometry<D>& g) : g_(g), share_("sisph.share", static_cast<size_t>(g.pairs.particles) + lanes) {
+  Kokkos::deep_copy(share_, 1.0);
+}
+
+template <int D>
+double MassFlux<D>::least_depth(const SliceList& active, const Water<D>& water, const FreeSurface<D>& surface, double dt) {
+  double least = 0;
+  Kokkos::parallel_reduce("sisph::depths", Range(0, active.count),
+                          Depths<D>{g_, active, water.depth, surface.flux(), surface.depth(), share_, dt}, Kokkos::Min<double>(least));
+  return active.count > 0 ? least : 0.0;
+}
+
+template <int D>
+void MassFlux<D>::scale_outflow(const SliceList& active, const Water<D>&, const FreeSurface<D>& surface, double) {
+  Kokkos::parallel_for("sisph::scale_outflow", Range(0, active.count), ScaleOutflow<D>{g_, active, surface.flux(), share_});
+}
+
+template <int D>
+FluxReport MassFlux<D>::close_depths(const SliceList& active, const Water<D>& water, const FreeSurface<D>& surface, double dt) {
+  constexpr int most_sweeps = 20;
+  Kokkos::parallel_for("sisph::fluxes", Range(0, active.count),
+                       Fluxes<D>{g_, active, surface.a(), surface.level(), surface.flux(), 1 / dt});
+  FluxReport report;
+  while (least_depth(active, water, surface, dt) < 0 && report.sweeps < most_sweeps) {
+    scale_outflow(active, water, surface, dt);
+    ++report.sweeps;
+  }
+  const Field<double> depth = surface.depth(), omega = g_.omega;
+  const Geometry<D> g = g_;
+  const SliceList list = active;
+  report.clipped = sums_.sum<1>("sisph::clip", active.count, KOKKOS_LAMBDA(int k) {
+    const Lanes me = g.pairs(list(k));
+    double missing = 0;
+    for (int l = 0; l < me.count; ++l) {
+      const int i = me.particle(l);
+      missing += omega(i) * larger(-depth(i), 0.0);
+      depth(i) = larger(depth(i), 0.0);
+    }
+    return Kokkos::Array<double, 1>{{missing}};
+  })[0];
+  return report;
+}
+
+template <int D>
+void MassFlux<D>::advect(const SliceList& active, const Water<D>& water, const FreeSurface<D>& surface,
+                         const VelocityGradient<D>& gradient, double dt, const VecField<double, D>& advected) {
+  Kokkos::parallel_for("sisph::advect", Range(0, active.count),
+                       Advect<D>{g_, active, water, gradient, surface.flux(), surface.depth(), dt, advected});
+}
+
+template class MassFlux<1>;
+template class MassFlux<2>;
+
+}  // namespace freshet::sisph

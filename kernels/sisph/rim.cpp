@@ -1,0 +1,57 @@
+#include "kernels/sisph/rim.hpp"
+
+namespace freshet::sisph {
+namespace {
+
+template <int D>
+struct Flow {
+  Geometry<D> g;
+  SliceList rim;
+  Field<double> flux, a, level;
+  double drawn_per_dt;  // 1/dt, or 0 where the flux holds it already
+
+  KOKKOS_FUNCTION Kokkos::Array<double, 2> operator()(int k) const {
+    const int s = rim(k);
+    const Lanes me = g.pairs(s);
+    const Lane free = free_lanes(g, me), eta = me.load(level);
+    Lane in(0.0), out(0.0);
+    g.pairs.for_each(s, [&](int e, LaneIndex j) {
+      const Lane drawn = (drawn_per_dt * PairView::load(a, e)) * (gather(level.data(), j) - eta);
+      const Lane f = (free * (1.0 - gather(g.free.data(), j))) * (PairView::load(flux, e) - drawn);
+      in += larger(-f, Lane(0.0));
+      out += larger(f, Lane(0.0));
+    });
+    Kokkos::Array<double, 2> sum{};
+    for (int l = 0; l < me.count; ++l) sum[0] += lane_of(in, l), sum[1] += lane_of(out, l);
+    return sum;
+  }
+};
+
+}  // namespace
+
+template <int D>
+Rim<D>::Rim(const Geometry<D>& g) : g_(g), list_{Field<int>("sisph.rim", static_cast<size_t>(g.slices.count) + 1), 0} {
+  const SliceList rim = list_;
+  const Geometry<D> geometry = g;
+  Kokkos::parallel_scan("sisph::list_rim", Range(0, g.slices.count), KOKKOS_LAMBDA(int k, int& count, bool last) {
+        const int s = geometry.slices(k);
+        Lane held(0.0);
+        geometry.pairs.for_each(s, [&](int, LaneIndex j) { held = larger(held, 1.0 - gather(geometry.free.data(), j)); });
+        if (largest(held) < 0.5) return;
+        if (last) rim.list(count) = s;
+        ++count;
+      }, list_.count);
+}
+
+template <int D>
+RimFlow Rim<D>::flow(const FreeSurface<D>& surface, double dt, bool closed) {
+  if (list_.count == 0) return {};
+  const auto sum = sums_.sum<2>("sisph::rim_flow", list_.count,
+                                Flow<D>{g_, list_, surface.flux(), surface.a(), surface.level(), closed ? 0.0 : 1 / dt});
+  return {dt * sum[0], dt * sum[1]};
+}
+
+template class Rim<1>;
+template class Rim<2>;
+
+}  // namespace freshet::sisph

@@ -1,0 +1,34 @@
+// Velocity carried along particle paths between particles at rest (fully wet, smooth flow):
+//   x_d = x_i - dt/2 (v_i^{n+1} + P[v^n](x_d)),  Fu_i = P[u](x_d),  u = v^n - (1 - theta) g dt grad eta^n
+// P: quadratic polynomial that passes through the particle nearest to the place and fits its neighbours by weighted least
+// squares; fitted once per step. Exact for quadratic fields.
+#pragma once
+#include "kernels/sisph/surface.hpp"
+
+namespace freshet::sisph {
+
+template <int D>
+class SemiLagrangian {
+ public:
+  static constexpr int terms = D == 1 ? 2 : 5;  // xi, xi^2; xi, zeta, xi^2, xi zeta, zeta^2
+
+  // length: m, that the polynomials' coordinates are measured in; support: m, of the pairs.
+  SemiLagrangian(const Geometry<D>& g, const Rows& rows, double spacing, double support);
+
+  // The polynomials of v and u.
+  void fit(const VecField<double, D>& v, const VecField<double, D>& u);
+  // carried = Fu for the end velocity `last` of the pass before.
+  void trace(const VecField<double, D>& v, const VecField<double, D>& u, const VecField<double, D>& last, double dt,
+             const VecField<double, D>& carried) const;
+
+ private:
+  Geometry<D> g_;
+  Rows rows_;
+  double spacing_, support_;
+  int stride_;
+  Field<double> inverse_;   // per particle, terms (terms + 1) / 2 values, each of stride_ particles
+  Field<double> own2_;      // m2: nearer than this to a particle no other is nearer
+  Field<double> fitted_;    // per particle: terms of v.x, (v.y), u.x, (u.y), likewise
+};
+
+}  // namespace freshet::sisph

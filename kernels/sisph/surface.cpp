@@ -1,0 +1,186 @@
+#include "kernels/sisph/surface.hpp"
+
+#include <cmath>
+
+namespace freshet::sisph {
+namespace {
+
+KOKKOS_FORCEINLINE_FUNCTION double sum_of(const Lanes& me, Lane a) {
+  double total = 0;
+  for (int l = 0; l < me.count; ++l) total += lane_of(a, l);
+  return total;
+}
+
+// a, f, b, the row sums and the residual of the iterate; returns the slice's parts of |r|^2 and |b|^2.
+template <int D, bool drying>
+struct Coefficients {
+  Geometry<D> g;
+  SliceList active;
+  Water<D> water;
+  VecField<double, D> before;
+  Field<double> last_depth, level;                 // of the Picard pass before
+  Field<double> a, flux, right, residual, row_sum;  // written
+  double stiffness, dt;                            // g theta^2 dt^2
+
+  KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, D> pair_velocity(const Vec<Lane, D>& vi, const Vec<Lane, D>& vj, Lane hi, Lane hj) const {
+    if constexpr (!drying) return Lane(0.5) * (vi + vj);
+    const Lane per = 1.0 / (hi + hj + 1e-300);
+    return (hi * per) * vi + (hj * per) * vj;
+  }
+
+  KOKKOS_FUNCTION Kokkos::Array<double, 2> operator()(int k) const {
+    const int s = active(k);
+    const Lanes me = g.pairs(s);
+    const Vec<Lane, D> vi = me.load(before);
+    const Lane hi = me.load(water.depth), li = larger(me.load(last_depth), Lane(0.0)), bi = me.load(water.bed), eta = me.load(level);
+    Lane outflow(0.0), sum_a(0.0), drawn(0.0);
+    g.pairs.for_each(s, [&](int e, LaneIndex j) {
+      const Lane hj = gather(water.depth.data(), j), lj = larger(gather(last_depth.data(), j), Lane(0.0));
+      const Lane bj = drying ? gather(water.bed.data(), j) : Lane(0.0);
+      const Lane face = 0.5 * (face_depth<drying>(hi, hj, bi, bj) + face_depth<drying>(li, lj, bi, bj));
+      const Lane wet_area = PairView::load(g.area, e) * face;
+      const Lane f = wet_area * dot(pair_velocity(vi, gather(before, j), hi + li, hj + lj), PairView::load(g.n, e));
+      const Lane aij = stiffness * wet_area / PairView::load(g.distance, e);
+      PairView::store(flux, e, f);
+      PairView::store(a, e, aij);
+      outflow += f;
+      sum_a += aij;
+      drawn += aij * (gather(level.data(), j) - eta);
+    });
+    const Lane omega = me.load(g.omega), free = free_lanes(g, me);
+    const Lane b = omega * hi - dt * outflow, r = free * (b + drawn - omega * larger(eta - bi, Lane(0.0)));
+    me.store(right, b);
+    me.store(row_sum, sum_a);
+    me.store(residual, r);
+    return {{sum_of(me, r * r), sum_of(me, free * b * b)}};
+  }
+};
+
+// y = (P + T) x; returns the slice's part of x . y.
+template <int D>
+struct Product {
+  Geometry<D> g;
+  SliceList active;
+  Field<double> a, diagonal, x, y;
+
+  KOKKOS_FUNCTION Kokkos::Array<double, 1> operator()(int k) const {
+    const int s = active(k);
+    const Lanes me = g.pairs(s);
+    const Lane xi = me.load(x);
+    const Lane row = free_lanes(g, me) * (me.load(diagonal) * xi - g.pairs.weighted_sum(s, a, x));
+    me.store(y, row);
+    return {{sum_of(me, xi * row)}};
+  }
+};
+
+// The depth from the fluxes, b - T eta = omega H, and the residual against V(eta); returns the slice's part of |r|^2.
+template <int D>
+struct Residual {
+  Geometry<D> g;
+  SliceList active;
+  Field<double> a, level, bed, right, row_sum, depth, residual;
+
+  KOKKOS_FUNCTION Kokkos::Array<double, 1> operator()(int k) const {
+    const int s = active(k);
+    const Lanes me = g.pairs(s);
+    const Lane eta = me.load(level), omega = me.load(g.omega), free = free_lanes(g, me);
+    Lane drawn(0.0);
+    g.pairs.for_each(s, [&](int e, LaneIndex j) { drawn += PairView::load(a, e) * (gather(level.data(), j) - eta); });
+    const Lane volume = me.load(right) + drawn;
+    const Lane r = free * (volume - omega * larger(eta - me.load(bed), Lane(0.0)));
+    me.store(depth, select(Lane(0.5) < free, volume / omega, me.load(depth)));
+    me.store(residual, r);
+    return {{sum_of(me, r * r)}};
+  }
+};
+
+}  // namespace
+
+template <int D>
+FreeSurface<D>::FreeSurface(const Geometry<D>& g, const SurfaceOptions& options) : g_(g), options_(options) {
+  const size_t pair_values = g.pairs.j.extent(0);
+  a_ = Field<double>("sisph.a", pair_values);
+  flux_ = Field<double>("sisph.flux", pair_values);
+  for (Field<double>* f : {&level_, &depth_, &right_, &residual_, &change_, &row_sum_, &diagonal_, &inverse_})
+    *f = Field<double>("sisph.surface", static_cast<size_t>(g.pairs.particles) + lanes);
+  cg_.resize(g.pairs.particles);
+}
+
+template <int D>
+void FreeSurface<D>::start(const Water<D>& water) {
+  const Field<double> level = level_, depth = depth_, residual = residual_, inverse = inverse_;
+  const Water<D> w = water;
+  first_ = true;
+  Kokkos::parallel_for("sisph::start_surface", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) {
+        depth(i) = w.depth(i);
+        level(i) = w.bed(i) + w.depth(i);
+        residual(i) = 0;
+        inverse(i) = 0;
+      });
+}
+
+template <int D>
+template <bool drying>
+typename FreeSurface<D>::Norms FreeSurface<D>::find_coefficients(const SliceList& active, const Water<D>& water,
+                                                                 const VecField<double, D>& before, double dt) {
+  const Coefficients<D, drying> pass{g_, active, water, before, depth_, level_, a_, flux_, right_, residual_, row_sum_,
+                                     options_.gravity * options_.theta * options_.theta * dt * dt, dt};
+  const auto sums = sums_.sum<2>("sisph::coefficients", active.count, pass);
+  return {std::sqrt(sums[0]), std::sqrt(sums[1])};
+}
+
+template <int D>
+double FreeSurface<D>::find_residual(const SliceList& active, const Water<D>& water) {
+  return std::sqrt(sums_.sum<1>("sisph::residual", active.count,
+                                Residual<D>{g_, active, a_, level_, water.bed, right_, row_sum_, depth_, residual_})[0]);
+}
+
+// P + sum_j a_ij and its inverse; rows without any are left out.
+template <int D>
+void FreeSurface<D>::set_diagonal(const SliceList& active, const Water<D>& water, bool all_wet) {
+  const Geometry<D> g = g_;
+  const Field<double> level = level_, bed = water.bed, row_sum = row_sum_, diagonal = diagonal_, inverse = inverse_;
+  Kokkos::parallel_for("sisph::diagonal", Range(0, active.count), KOKKOS_LAMBDA(int k) {
+        const Lanes me = g.pairs(active(k));
+        const Lane wet = select(me.load(bed) < me.load(level), Lane(1.0), Lane(all_wet ? 1.0 : 0.0));
+        const Lane sum = me.load(row_sum) + wet * me.load(g.omega);
+        me.store(diagonal, sum);
+        me.store(inverse, select(Lane(0.0) < sum, free_lanes(g, me) / sum, Lane(0.0)));
+      });
+}
+
+template <int D>
+SurfaceReport FreeSurface<D>::solve(const SliceList& active, const Water<D>& water, const VecField<double, D>& before, double dt,
+                                    bool drying) {
+  const Region region("sisph::free_surface");
+  const Norms norms = drying ? find_coefficients<true>(active, water, before, dt) : find_coefficients<false>(active, water, before, dt);
+  constexpr double round_off = 1e-14;  // of |b|
+  if (first_) scale_ = larger(norms.residual, round_off * norms.right + 1e-300);
+  first_ = false;
+  const double scale = scale_;
+  const auto product = [&](const Field<double>& x, const Field<double>& y) {
+    return sums_.sum<1>("sisph::product", active.count, Product<D>{g_, active, a_, diagonal_, x, y})[0];
+  };
+  linear::CgOptions cg;
+  cg.tolerance = options_.cg_tolerance;
+  cg.max_iterations = options_.cg_most;
+  cg.scale = scale;
+  SurfaceReport report;
+  report.residual = norms.residual / scale;
+  const Field<double> level = level_, change = change_;
+  for (bool all_wet = true; report.newton < options_.newton_most; all_wet = false) {
+    set_diagonal(active, water, all_wet);
+    report.iterations += cg_.solve(product, linear::Jacobi{inverse_}, residual_, change_, cg).iterations;
+    ++report.newton;
+    Kokkos::parallel_for("sisph::move_surface", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) { level(i) += change(i); });
+    report.residual = find_residual(active, water) / scale;
+    if (report.residual <= 2 * options_.newton_tolerance) return report;  // CG's own tolerance and as much again
+  }
+  report.converged = false;
+  return report;
+}
+
+template class FreeSurface<1>;
+template class FreeSurface<2>;
+
+}  // namespace freshet::sisph

@@ -1,0 +1,80 @@
+// The free surface of one Picard pass (SISPH formulation E, sections 3 and 5 of the method's notes):
+//   V(eta_i) + sum_j a_ij (eta_i - eta_j) = b_i,   V(eta) = omega max(0, eta - bed)                       (Casulli 2009)
+//   a_ij = g theta^2 dt^2 A_ij H_ij / d_ij,  f_ij = A_ij H_ij v_ij . n_ij,  b_i = omega H_i^n - dt sum_j f_ij
+// solved for increments by Newton's method, all particles wet in its first solve, with Jacobi CG inside. The depth follows
+// from the fluxes F_ij = f_ij - (a_ij / dt)(eta_j - eta_i), which conserve mass to round-off at any tolerance.
+#pragma once
+#include "kernels/linear/cg.hpp"
+#include "kernels/sisph/geometry.hpp"
+
+namespace freshet::sisph {
+
+// Depth between two particles: their mean where both are wet, else the water above the higher bed.
+template <bool drying, class V>
+KOKKOS_FORCEINLINE_FUNCTION V face_depth(V depth_i, V depth_j, V bed_i, V bed_j) {
+  constexpr double least = 1e-12;  // m
+  const V mean = 0.5 * (depth_i + depth_j);
+  if constexpr (!drying) return mean;
+  const V above = larger(bed_i + depth_i, bed_j + depth_j) - larger(bed_i, bed_j);
+  return select((V(0.0) < depth_i) & (V(0.0) < depth_j), mean, select(V(least) < above, above, V(0.0)));
+}
+
+// The state that a step starts from.
+template <int D>
+struct Water {
+  Field<double> depth;    // m, >= 0
+  Field<double> bed;      // m
+  VecField<double, D> v;  // m/s
+};
+
+struct SurfaceOptions {
+  double gravity = 9.81;  // m/s2
+  double theta = 0.55;
+  double cg_tolerance = 1e-6, newton_tolerance = 1e-6;  // of the residual that the step starts from
+  int cg_most = 2000, newton_most = 60;
+};
+
+struct SurfaceReport {
+  int newton = 0, iterations = 0;  // linear solves, and CG iterations in all of them
+  double residual = 0;             // |b - V(eta) - T eta| at the end, likewise
+  bool converged = true;
+};
+
+template <int D>
+class FreeSurface {
+ public:
+  FreeSurface(const Geometry<D>& g, const SurfaceOptions& options);
+
+  // Views for the passes around the solve.
+  const Field<double>& level() const { return level_; }    // eta as solved for, m: below the bed where dry
+  const Field<double>& depth() const { return depth_; }    // from the fluxes, m: may be negative by the solver's residual
+  const Field<double>& a() const { return a_; }            // per pair
+  const Field<double>& flux() const { return flux_; }      // per pair: f_ij, m3/s
+
+  // Sets the iterate to the surface of the water and the depth to its depth.
+  void start(const Water<D>& water);
+  // One Picard pass: coefficients from the mean of the face depths of `water` and of the last pass, then the solve.
+  // before: velocity before the pressure at n+1. drying: some particle may be dry.
+  SurfaceReport solve(const SliceList& active, const Water<D>& water, const VecField<double, D>& before, double dt, bool drying);
+
+ private:
+  struct Norms {
+    double residual, right;
+  };
+  template <bool drying>
+  Norms find_coefficients(const SliceList& active, const Water<D>& water, const VecField<double, D>& before, double dt);
+  double find_residual(const SliceList& active, const Water<D>& water);
+  void set_diagonal(const SliceList& active, const Water<D>& water, bool all_wet);
+
+  Geometry<D> g_;
+  SurfaceOptions options_;
+  linear::ConjugateGradients cg_;
+  OrderedSums sums_;
+  bool first_ = true;   // the next pass is the first of its step
+  double scale_ = 1;    // |r| there: what residuals are measured in, whatever the depth below the waves
+  Field<double> a_, flux_;                                       // per pair
+  Field<double> level_, depth_, right_, residual_, change_;      // per particle
+  Field<double> row_sum_, diagonal_, inverse_;
+};
+
+}  // namespace freshet::sisph

@@ -1,0 +1,35 @@
+// [sisph]: the semi-implicit method.
+#include "src/scene/names.hpp"
+#include "src/scene/sections.hpp"
+
+namespace freshet::input {
+namespace {
+
+void read_solver(Table& section, const std::string& key, Sisph::Solver& solver) {
+  Table table = section.table(key);
+  solver.tolerance = table.number("tolerance")
+                         .positive()
+                         .check([](double t) { return t < 1; }, "below 1")
+                         .otherwise(solver.tolerance);
+  solver.most = table.integer("max").at_least(1).otherwise(solver.most);
+}
+
+}  // namespace
+
+// The explicit method's h / dx stands for l / dx wherever only a particle's size matters.
+void read_sisph(Table& section, Scene& scene) {
+  Sisph& sisph = scene.sisph;
+  sisph.smoothing = section.number("smoothing").within(0.6, 4.0).otherwise(sisph.smoothing);
+  sisph.kernel = section.choice<KernelName>("kernel", kernel_names()).otherwise(sisph.kernel);
+  sisph.theta = section.number("theta").within(0.5, 1).otherwise(sisph.theta);
+  sisph.picard = section.integer("picard").within(1, 20).otherwise(sisph.picard);
+  sisph.momentum = section.choice<Sisph::Momentum>("momentum", momentum_names()).otherwise(sisph.momentum);
+  sisph.closure = section.boolean("closure").otherwise(sisph.closure);
+  read_solver(section, "cg", sisph.cg);
+  read_solver(section, "newton", sisph.newton);
+  sisph.courant = section.number("courant").positive().otherwise(sisph.courant);
+  sisph.advection = section.number("advection").positive().otherwise(sisph.advection);
+  if (scene.method == "sisph") scene.sph.eta = sisph.smoothing;
+}
+
+}  // namespace freshet::input

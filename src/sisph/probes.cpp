@@ -1,0 +1,92 @@
+// What the run loop asks of the solver's state: totals, point samples, run-up, restart scalars.
+#include "src/scene/names.hpp"
+#include "src/sisph/solver.hpp"
+
+namespace freshet::sisph {
+namespace {
+
+template <int D>
+Vec<double, D> to_vec(const Point& p) {
+  Vec<double, D> v;
+  v.x = p[0];
+  if constexpr (D == 2) v.y = p[1];
+  return v;
+}
+
+}  // namespace
+
+template <int D>
+Totals Solver<D>::totals() const {
+  Totals totals = passed_;
+  const Field<double> omega = geometry_.omega, free = geometry_.free, depth = particles_.real("depth");
+  totals.mass = sums_.template sum<1>("sisph::mass", particles_.size(), KOKKOS_LAMBDA(int i) {
+    return Kokkos::Array<double, 1>{{free(i) * omega(i) * depth(i)}};
+  })[0];
+  return totals;
+}
+
+template <int D>
+Mechanics Solver<D>::mechanics() const {
+  const Water<D> now = water();
+  const Field<double> omega = geometry_.omega, free = geometry_.free;
+  const double g = scene_.gravity;
+  const auto sums = sums_.template sum<4>("sisph::mechanics", particles_.size(), KOKKOS_LAMBDA(int i) {
+    const Vec<double, D> v = at(now.v, i);
+    const double h = now.depth(i), m = free(i) * omega(i) * h;
+    double across = 0;
+    if constexpr (D == 2) across = v.y;
+    return Kokkos::Array<double, 4>{{m * v.x, m * across, 0.5 * m * dot(v, v), m * g * (now.bed(i) + 0.5 * h)}};
+  });
+  return {{sums[0], sums[1]}, sums[2], sums[3]};
+}
+
+template <int D>
+std::vector<PointState> Solver<D>::sample(const std::vector<Point>& points) const {
+  const SortedWater<D> sorted = sorted_water();
+  std::vector<PointState> states;
+  for (const Point& point : points) {
+    const Vec<double, D> place = to_vec<D>(point);
+    const SampledDepth found = sample_depth(sorted, place);
+    states.push_back({bed_ ? bed_->at(place).b : 0.0, found.depth, found.reached});
+  }
+  return states;
+}
+
+template <int D>
+double Solver<D>::highest_wet_bed(const Point& point, double radius, double min_depth) const {
+  return highest_wet_level(sorted_water(), level_of_bed_, to_vec<D>(point), radius, min_depth);
+}
+
+template <int D>
+std::vector<std::string> Solver<D>::features() const {
+  std::vector<std::string> names{name_in(kernel_names(), scene_.sisph.kernel) + " kernel", "particles at rest",
+                                 paths_ ? "velocity along particle paths" : "momentum carried by the mass fluxes"};
+  if (closure_.iterations > 0)
+    names.push_back("pair areas closed in " + std::to_string(closure_.iterations) + " iterations, largest change " +
+                    std::to_string(closure_.change));
+  if (closure_.negative > 0) names.push_back(std::to_string(closure_.negative) + " pair areas below zero");
+  if (bed_) names.push_back("bed");
+  names.push_back("sides held at their state at t = 0");
+  return names;
+}
+
+template <int D>
+ScalarState Solver<D>::scalars() const {
+  return {{"passed", {passed_.inflow, passed_.outflow}},
+          {"solver", {static_cast<double>(report_.solves), static_cast<double>(report_.iterations), static_cast<double>(report_.unsettled)}}};
+}
+
+template <int D>
+void Solver<D>::restore(const ScalarState& state) {
+  passed_.inflow = state.at("passed")[0];
+  passed_.outflow = state.at("passed")[1];
+  report_.solves = static_cast<long>(state.at("solver")[0]);
+  report_.iterations = static_cast<long>(state.at("solver")[1]);
+  report_.unsettled = static_cast<long>(state.at("solver")[2]);
+  measure_speeds();
+}
+
+template class Solver<1>;
+template class Solver<2>;
+
+}  // namespace freshet::sisph

@@ -1,0 +1,198 @@
+// From a scene to the solver's state: bed, particles and the held rim, geometry, the form of the momentum.
+#include <algorithm>
+#include <cmath>
+
+#include "src/errors.hpp"
+#include "src/scene/place.hpp"
+#include "src/sisph/solver.hpp"
+
+namespace freshet::sisph {
+
+// A particle at t = 0.
+struct Start {
+  Placed placed;
+  double depth, bed;  // m
+  bool held;
+};
+
+namespace {
+
+void require(bool holds, const std::string& what) {
+  if (!holds) throw SceneError("the method \"sisph\" does not know " + what + " yet\n  help: use scene.method = \"sph-swe\"");
+}
+
+void require_known(const Scene& scene) {
+  require(scene.walls.empty(), "walls ([[wall]])");
+  require(scene.boundaries.empty(), "open boundaries ([[boundary]])");
+  require(!scene.manning, "friction (bed.manning)");
+  require(!scene.split && !scene.merge, "splitting and merging ([split], [merge])");
+  require(scene.water.start == freshet::Water::Start::cells, "any water.start but \"cells\"");
+}
+
+// Width of the cells along a side, as place() has it.
+double cell_width(const Scene& scene, int axis) {
+  const double length = scene.domain.high[axis] - scene.domain.low[axis];
+  return length / std::max(1.0, std::round(length / scene.water.spacing));
+}
+
+// The scene with room for the rim: cells of a support beyond each side of the domain.
+Scene with_rim(const Scene& scene, double support) {
+  Scene wider = scene;
+  const double cells = std::ceil(support * scene.sisph.smoothing - 1e-9) + (scene.water.disorder > 0 ? 1 : 0);
+  for (int axis = 0; axis < scene.domain.dimension; ++axis) {
+    const double rim = cells * cell_width(scene, axis);
+    wider.domain.low[axis] -= rim;
+    wider.domain.high[axis] += rim;
+  }
+  wider.water.wet_above = 0;
+  return wider;
+}
+
+bool is_inside(const Domain& domain, const Point& p) {
+  for (int axis = 0; axis < domain.dimension; ++axis)
+    if (p[axis] < domain.low[axis] || p[axis] > domain.high[axis]) return false;
+  return true;
+}
+
+template <class F>
+void set_field(const Field<double>& field, const std::vector<Start>& start, const F& value) {
+  auto host = Kokkos::create_mirror_view(field);
+  for (std::size_t i = 0; i < start.size(); ++i) host(i) = value(start[i]);
+  Kokkos::deep_copy(field, host);
+}
+
+template <int D>
+VecField<double, D> scratch(const std::string& label, int n);
+template <>
+VecField<double, 1> scratch<1>(const std::string& label, int n) {
+  return {Field<double>(label, static_cast<std::size_t>(n) + lanes)};
+}
+template <>
+VecField<double, 2> scratch<2>(const std::string& label, int n) {
+  return {Field<double>(label, static_cast<std::size_t>(n) + lanes), Field<double>(label, static_cast<std::size_t>(n) + lanes)};
+}
+
+VecField<double, 1> vector_field(const FieldSet& f, const char* x, const char*, Vec<double, 1>) { return {f.real(x)}; }
+VecField<double, 2> vector_field(const FieldSet& f, const char* x, const char* y, Vec<double, 2>) { return {f.real(x), f.real(y)}; }
+
+}  // namespace
+
+// Every cell has a particle, dry or wet. Depths below a billionth of the deepest are what rounding leaves of dry land.
+template <int D>
+void Solver<D>::place_particles() {
+  constexpr double rounding = 1e-9;
+  require_known(scene_);
+  const Scene wider = with_rim(scene_, support_);
+  if (scene_.bed.elevation) {
+    const double spacing = scene_.bed.spacing > 0 ? scene_.bed.spacing : scene_.water.spacing;
+    bed_.emplace(scene_.bed.elevation, typename BedSpline<D>::Lattice{wider.domain.low, wider.domain.high, spacing, scene_.bed.filter});
+  }
+  std::vector<Start> start;
+  double deepest = 0;
+  for (const Placed& p : place(wider, [](double, double) { return 1.0; })) {
+    Vec<double, D> place;
+    place.x = p.x[0];
+    if constexpr (D == 2) place.y = p.x[1];
+    const double bed = bed_ ? bed_->at(place).b : 0.0;
+    const double depth = scene_.water.surface ? scene_.water.surface(p.x[0], p.x[1]) - bed : scene_.water.depth(p.x[0], p.x[1]);
+    if (!std::isfinite(depth)) throw SceneError("water: the depth at (" + std::to_string(p.x[0]) + ", " + std::to_string(p.x[1]) +
+                                                ") m is not a finite number; check the expressions of [water] and [bed] there");
+    start.push_back({p, depth, bed, !is_inside(scene_.domain, p.x)});
+    deepest = std::max(deepest, depth);
+  }
+  if (!(deepest > 0)) throw SceneError("water: no particle is wet: check [water] and [bed]");
+  const double least = std::max(scene_.water.wet_above, rounding * deepest);
+  for (Start& s : start) s.depth = s.depth > least ? s.depth : 0.0;
+  particles_ = FieldSet(static_cast<int>(start.size()));
+  make_fields();
+  fill_fields(start);
+}
+
+template <int D>
+void Solver<D>::make_fields() {
+  FieldSet& f = particles_;
+  for (const char* name : {"x", "y"})
+    if (D == 2 || name == std::string("x")) f.real(name, "m", Carry::state);
+  for (const char* name : {"u", "v"})
+    if (D == 2 || name == std::string("u")) f.real(name, "m/s", Carry::state);
+  f.real("depth", "m", Carry::state);
+  f.real("h", "m", Carry::state);
+  f.real("mass", D == 1 ? "m2" : "m3", Carry::state);
+  if (bed_) f.real("bed", "m", Carry::state);
+  f.integer("id", "1", Carry::state);
+  f.integer("kind", "1", Carry::state);
+}
+
+template <int D>
+void Solver<D>::fill_fields(const std::vector<Start>& start) {
+  const auto fill = [&](const char* name, const auto& value) { set_field(particles_.real(name), start, value); };
+  fill("x", [](const Start& s) { return s.placed.x[0]; });
+  if (D == 2) fill("y", [](const Start& s) { return s.placed.x[1]; });
+  fill("u", [](const Start& s) { return s.depth > 0 ? s.placed.velocity[0] : 0.0; });
+  if (D == 2) fill("v", [](const Start& s) { return s.depth > 0 ? s.placed.velocity[1] : 0.0; });
+  fill("depth", [](const Start& s) { return s.depth; });
+  fill("h", [](const Start& s) { return s.placed.h0; });
+  if (bed_) fill("bed", [](const Start& s) { return s.bed; });
+  const auto id = Kokkos::create_mirror_view(particles_.integer("id")), kind = Kokkos::create_mirror_view(particles_.integer("kind"));
+  for (std::size_t i = 0; i < start.size(); ++i) id(i) = static_cast<int>(i), kind(i) = start[i].held ? 1 : 0;
+  Kokkos::deep_copy(particles_.integer("id"), id);
+  Kokkos::deep_copy(particles_.integer("kind"), kind);
+}
+
+template <int D>
+void Solver<D>::build_geometry() {
+  order_.sort(particles_);
+  const Field<double> h = particles_.real("h");
+  order_.measure_reach(particles_, h, support_);
+  const int n = particles_.size();
+  const double cell = cell_width(scene_, 0) * (D == 2 ? cell_width(scene_, 1) : 1.0);
+  const VecField<double, D> x = vector_field(particles_, "x", "y", Vec<double, D>{});
+  geometry_ = measure_geometry<D>(n, kernel_, {order_.rows(), x, h, particles_.integer("kind"), scene_.water.spacing, cell});
+  if (scene_.sisph.closure) closure_ = close_areas(geometry_);
+  level_of_bed_ = bed_ ? particles_.real("bed") : Field<double>("sisph.flat_bed", static_cast<std::size_t>(n) + lanes);
+  const Field<double> mass = particles_.real("mass"), depth = particles_.real("depth"), omega = geometry_.omega;
+  Kokkos::parallel_for("sisph::fill", Range(0, n), KOKKOS_LAMBDA(int i) { mass(i) = omega(i) * depth(i); });
+}
+
+template <int D>
+void Solver<D>::build_momentum() {
+  using Momentum = Sisph::Momentum;
+  const int n = particles_.size();
+  const Sisph& sisph = scene_.sisph;
+  surface_.emplace(geometry_, SurfaceOptions{scene_.gravity, sisph.theta, sisph.cg.tolerance, sisph.newton.tolerance, sisph.cg.most,
+                                             sisph.newton.most});
+  active_.emplace(geometry_);
+  active_->find(particles_.real("depth"));
+  rim_.emplace(geometry_);
+  for (VecField<double, D>* v : {&slope_, &explicit_, &carried_, &before_, &end_}) *v = scratch<D>("sisph.velocity", n);
+  push(water().v, 0, carried_);  // for good where all of a slice is held
+  const bool by_fluxes = sisph.momentum == Momentum::mass_flux || (sisph.momentum == Momentum::automatic && active_->drying());
+  if (!by_fluxes && active_->drying())
+    throw SceneError("sisph.momentum = \"semi-lagrangian\" needs water everywhere, and " + std::to_string(active_->dry()) +
+                     " particles are dry\n  help: use \"mass-flux\"");
+  if (by_fluxes) {
+    fluxes_.emplace(geometry_);
+    velocity_gradient_.u = scratch<D>("sisph.grad_u", n);
+    if (D == 2) velocity_gradient_.v = scratch<D>("sisph.grad_v", n);
+  } else {
+    paths_.emplace(geometry_, order_.rows(), scene_.water.spacing, support_ * sisph.smoothing * scene_.water.spacing);
+  }
+}
+
+template <int D>
+Water<D> Solver<D>::water() const {
+  return {particles_.real("depth"), level_of_bed_, vector_field(particles_, "u", "v", Vec<double, D>{})};
+}
+
+template <int D>
+SortedWater<D> Solver<D>::sorted_water() const {
+  const FieldSet& f = particles_;
+  const Vec<double, D> dimension;
+  return {order_.rows(), vector_field(f, "x", "y", dimension), vector_field(f, "u", "v", dimension), f.real("mass"), f.real("depth"),
+          f.real("h"), f.integer("kind")};
+}
+
+template class Solver<1>;
+template class Solver<2>;
+
+}  // namespace freshet::sisph

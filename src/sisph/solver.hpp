@@ -1,0 +1,80 @@
+// Semi-implicit SPH for the shallow water equations (Bankole 2016, ch. 5-7, corrected): formulation E, particles at rest.
+// Gravity waves are implicit, so the celerity does not bound the step. One step:
+//   velocity before the pressure at n+1 (along particle paths, or carried by the mass fluxes), a linear or (with drying)
+//   piecewise linear system for the free surface, fluxes and depths from it, the pressure at n+1; repeated (Picard).
+#pragma once
+#include <optional>
+
+#include "kernels/bed_spline.hpp"
+#include "kernels/sampling.hpp"
+#include "kernels/sisph/active.hpp"
+#include "kernels/sisph/closure.hpp"
+#include "kernels/sisph/mass_flux.hpp"
+#include "kernels/sisph/rim.hpp"
+#include "kernels/sisph/semi_lagrangian.hpp"
+#include "src/method.hpp"
+
+namespace freshet::sisph {
+
+struct Start;  // a particle at t = 0 (setup.cpp)
+
+template <int D>
+class Solver : public Method {
+ public:
+  explicit Solver(const Scene& scene);
+
+  std::string name() const override { return "sisph"; }
+  int dimension() const override { return D; }
+  double stable_dt() const override;
+  void step(double t, double dt) override;
+  FieldSet& fields() override { return particles_; }
+  const FieldSet& fields() const override { return particles_; }
+  const Rows& rows() const override { return order_.rows(); }
+  Totals totals() const override;
+  Mechanics mechanics() const override;
+  StepReport report() const override { return report_; }
+  std::vector<PointState> sample(const std::vector<Point>& points) const override;
+  double highest_wet_bed(const Point& at, double radius, double min_depth) const override;
+  std::vector<std::string> features() const override;
+  ScalarState scalars() const override;
+  void restore(const ScalarState& scalars) override;
+
+ private:
+  void place_particles();
+  void make_fields();
+  void fill_fields(const std::vector<Start>& start);
+  void build_geometry();
+  void build_momentum();
+  void carry_along_paths(double dt);
+  void carry_by_fluxes(double dt);
+  void push(const VecField<double, D>& from, double impulse, const VecField<double, D>& to);
+  void blend();
+  void solve_surface(double dt, bool drying);
+  void accept(double dt, bool closed);
+  void measure_speeds();
+  Water<D> water() const;
+  SortedWater<D> sorted_water() const;
+
+  Scene scene_;
+  AnyKernel<D> kernel_;
+  double support_;  // of the kernel, x l
+  FieldSet particles_;
+  RowOrder order_;
+  std::optional<BedSpline<D>> bed_;
+  Field<double> level_of_bed_;  // m, per particle
+  Geometry<D> geometry_;
+  ClosureReport closure_;
+  std::optional<FreeSurface<D>> surface_;
+  std::optional<ActiveSlices<D>> active_;
+  std::optional<SemiLagrangian<D>> paths_;
+  std::optional<MassFlux<D>> fluxes_;
+  std::optional<Rim<D>> rim_;
+  VecField<double, D> slope_, explicit_, carried_, before_, end_;  // grad eta; velocities, m/s
+  VelocityGradient<D> velocity_gradient_;
+  StepReport report_;
+  Totals passed_;         // inflow and outflow since t = 0
+  double speed_ = 0, celerity_ = 0;  // m/s, largest
+  mutable OrderedSums sums_;
+};
+
+}  // namespace freshet::sisph
