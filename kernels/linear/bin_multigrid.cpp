@@ -2,19 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace freshet::linear {
 namespace {
 
-void grow(Field<int>& field, const char* label, int n) {
+void grow(Field<int>& field, const std::string& label, int n) {
   if (field.extent_int(0) < n) field = Field<int>(label, static_cast<size_t>(n + n / 2 + 16));
 }
 // Zero-filled, with room for a last partial block.
-void grow(Vector& field, const char* label, int n) {
+void grow(Vector& field, const std::string& label, int n) {
   if (field.extent_int(0) < n + lanes) field = Vector(label, static_cast<size_t>(n + n / 2 + 16 + lanes));
 }
 template <class View>
-void grow(View& table, const char* label, int n, int width) {
+void grow(View& table, const std::string& label, int n, int width) {
   if (table.extent_int(0) >= n + lanes && table.extent_int(1) >= width) return;
   table = View(label, static_cast<size_t>(n + n / 2 + 16 + lanes), static_cast<size_t>(width));
 }
@@ -285,7 +286,7 @@ void BinMultigrid::invert_last(bool singular) {
 void BinMultigrid::operator()(const Vector& r, const Vector& z) {
   const Region region("multigrid::cycle");
   const Points points{matrix_};
-  Vector x = z, y = y_;
+  Vector x = y_, y = z;  // an odd number of sweeps ends in z
   smooth_from_zero(points, r, x, y, options_);
   find_residual(points, r, x, y);
   const BinLevel& first = levels_.front();
@@ -300,7 +301,6 @@ void BinMultigrid::operator()(const Vector& r, const Vector& z) {
   cycle(0);
   add_coarse(matrix_.rows, parent_, options_.over_correction, first.x, x);
   for (int s = 0; s < options_.sweeps; ++s, std::swap(x, y)) smooth(points, r, x, y, options_.damping);
-  if (x.data() != z.data()) Kokkos::deep_copy(Kokkos::subview(z, std::make_pair(0, matrix_.rows)), Kokkos::subview(x, std::make_pair(0, matrix_.rows)));
 }
 
 // level.x := one cycle on level.b.
