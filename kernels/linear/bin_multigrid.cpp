@@ -22,6 +22,9 @@ void grow(View& table, const std::string& label, int n, int width) {
 
 int halved(int n) { return (n + 1) / 2; }
 
+// Bins that an entry reaches on the next level; of an odd number of bins round a period the last one stays half a bin.
+int halved_reach(int reach, int bins, bool wrap) { return (reach + 1 + (wrap && bins % 2 == 1)) / 2; }
+
 // The points' matrix with the words of BinLevel.
 struct Points {
   ClusterMatrix m;
@@ -190,8 +193,8 @@ void BinMultigrid::build(const ClusterMatrix& matrix, const Field<int>& free, co
   BinLevel& first = levels_.front();
   first.nx = (rows_.bins - 1) / bins_ + 1;
   first.ny = rows_.rows;
-  first.rx = static_cast<int>(std::ceil(grid.reach / (bins_ * rows_.bin_width)));
-  first.ry = static_cast<int>(std::ceil(grid.reach / rows_.row_height));
+  first.rx = static_cast<int>(std::ceil(grid.reach / (bins_ * rows_.bin_width))) + grid.wrap_x;  // the last bin round a period
+  first.ry = static_cast<int>(std::ceil(grid.reach / rows_.row_height)) + grid.wrap_y;            // may be narrow
   first.wrap_x = grid.wrap_x;
   first.wrap_y = grid.wrap_y;
   sum_points(first);
@@ -239,8 +242,8 @@ void BinMultigrid::sum_points(BinLevel& level) {
 void BinMultigrid::sum_bins(const BinLevel& fine, BinLevel& coarse) {
   coarse.nx = halved(fine.nx);
   coarse.ny = halved(fine.ny);
-  coarse.rx = halved(fine.rx);
-  coarse.ry = halved(fine.ry);
+  coarse.rx = halved_reach(fine.rx, fine.nx, fine.wrap_x);
+  coarse.ry = halved_reach(fine.ry, fine.ny, fine.wrap_y);
   coarse.wrap_x = fine.wrap_x;
   coarse.wrap_y = fine.wrap_y;
   grow(coarse.number, "multigrid.number", coarse.nx * coarse.ny);
