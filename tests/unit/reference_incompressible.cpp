@@ -33,21 +33,25 @@ TEST_CASE("reference drop: area, energy and units") {
   CHECK(drop_at(drop, 0).pressure(3, 0) == Approx(0).margin(1e-9));
 }
 
-namespace {
-
-// -dp/dx or -dp/dy - g by central differences, one-sided at the free sides by p = 0 there.
-double slope(double plus, double minus, double step) { return (plus - minus) / step; }
-
-}  // namespace
-
+// One-sided second-order differences of the pressure, which is 0 on the free sides; e^2 / 3 x the third derivative is about 1e-5 g.
 TEST_CASE("reference column: accelerations are those of its pressure") {
-  for (const Column c : {Column{1, 1, 9.81}, Column{0.5, 2, 1}, Column{30, 1, 9.81}}) {
-    const double e = 1e-4 * c.height;
+  for (const Column& c : {Column{1, 1, 9.81}, Column{0.5, 2, 1}, Column{30, 1, 9.81}}) {
+    const double e = 1e-3 * c.height;
     for (const double part : {0.3, 0.6, 0.9}) {
-      const double y = part * c.height, x = -part * smaller_of(c) ;
-      // One-sided second-order differences: error about e^2 x the third derivative.
-      const double ax = -(-column_pressure(c, -2 * e, y) * -1 - 0) ;
-      (void)ax, (void)x;
+      const double y = part * c.height, x = -part * c.length;
+      const double ax = (4 * column_pressure(c, -e, y) - column_pressure(c, -2 * e, y)) / (2 * e);
+      const double ay = (4 * column_pressure(c, x, c.height - e) - column_pressure(c, x, c.height - 2 * e)) / (2 * e) - c.gravity;
+      CHECK(face_acceleration(c, y) == Approx(ax).margin(1e-4 * c.gravity));
+      CHECK(top_acceleration(c, x) == Approx(ay).margin(1e-4 * c.gravity));
     }
   }
+}
+
+TEST_CASE("reference column: falls freely at the corner, rests far inside") {
+  const Column c{40, 1, 9.81};
+  CHECK(top_acceleration(c, 0) == Approx(-9.81));
+  CHECK(top_acceleration(c, -20) == Approx(0).margin(1e-9));
+  CHECK(face_acceleration(c, 1) == Approx(0).margin(1e-9));
+  CHECK(face_acceleration(c, 0.5) == Approx(2 * 9.81 / std::acos(-1.0) * std::log(1 / std::tan(std::acos(-1.0) / 8))));
+  CHECK(column_pressure(c, -20, 0.25) == Approx(9.81 * 0.75));
 }
