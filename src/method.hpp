@@ -41,6 +41,7 @@ struct StepReport {
   int newton_max = 0;
   long rebuilds = 0;          // neighbour lists made again because h outgrew the margin, since t = 0
   int capped = 0, floored = 0;  // particles whose h sits at its bounds
+  int pressure_iterations = 0;  // of the incompressible methods
 };
 
 // Scalars that a method must find again on resume, by name.
@@ -54,17 +55,19 @@ class Method {
   virtual int dimension() const = 0;
   virtual double stable_dt() const = 0;               // s, for the state at hand
   virtual void step(double t, double dt) = 0;         // from t to t + dt
-  // Fields of a shallow-water method: x, y [m], u, v [m/s], depth [m], bed [m], mass [m3], h [m], id (int),
-  // kind (int, only with open boundaries: 0 fluid, > 0 boundary particle of that piece of line). 1-D has no y, v; a flat bed has no bed field.
+  // Fields of every method: x, y [m], u, v [m/s], id (int). 1-D has no y, v.
+  // Shallow water: depth [m], bed [m] (not where it is flat), mass [m3], h [m], kind (int, only with open boundaries: 0 fluid,
+  // > 0 boundary particle of that piece of line). Incompressible: p [Pa], surface (int, 1 on the free surface).
   virtual FieldSet& fields() = 0;
   virtual const FieldSet& fields() const = 0;
   virtual const Rows& rows() const = 0;               // the order that the particles are in, with the reach of their h
   virtual Totals totals() const = 0;
   virtual Mechanics mechanics() const = 0;
   virtual StepReport report() const = 0;
-  virtual std::vector<PointState> sample(const std::vector<Point>& points) const = 0;
-  // Highest bed level [m] under a fluid particle at least min_depth deep within radius of the point; -1e300 if none.
-  virtual double highest_wet_bed(const Point& at, double radius, double min_depth) const = 0;
+  // What only shallow water has; other scenes do not ask for it.
+  virtual std::vector<PointState> sample(const std::vector<Point>& points) const { return std::vector<PointState>(points.size()); }
+  // Highest bed level [m] under a fluid particle at least min_depth (third) deep within radius (second) of the point; -1e300 if none.
+  virtual double highest_wet_bed(const Point&, double, double) const { return -1e300; }
   virtual std::vector<std::string> features() const = 0;  // what this scene switched on, for `check` and the log
 
   virtual ScalarState scalars() const = 0;                // with the saved fields (is_saved):

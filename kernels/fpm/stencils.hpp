@@ -14,7 +14,7 @@ struct StencilView {
   Kokkos::View<double***, Kokkos::LayoutRight, Memory> factors;
 
   static constexpr int slopes = terms<D> - 1;
-  static constexpr int laplacian = D * slopes, value = laplacian + slopes, count = value + terms<D>;
+  static constexpr int laplacian_first = D * slopes, value_first = laplacian_first + slopes, count = value_first + terms<D>;
 
   template <int N>
   KOKKOS_FORCEINLINE_FUNCTION Column<Lane, N> load(int c, int first) const {
@@ -27,22 +27,45 @@ struct StencilView {
     unroll<N>([&](auto k) { __builtin_memcpy(&factors(c, first + k, 0), &beta[k], sizeof(Lane)); });
   }
 
-  // Gradient [1/m x f] of a field at the cluster's points.
-  KOKKOS_INLINE_FUNCTION Vec<Lane, D> gradient(int c, const Field<double>& f) const;
+  // At the cluster's points, of fields f and v.
+  KOKKOS_INLINE_FUNCTION Vec<Lane, D> gradient(int c, const Field<double>& f) const {       // 1/m x f
+    static_assert(D == 2, "three dimensions need a third component here");
+    const auto bx = load<slopes>(c, 0), by = load<slopes>(c, slopes);
+    const Lane here = around.clusters(c).load(f);
+    Vec<Lane, D> sum;
+    around.for_each(c, [&](int j, const Terms<Lane, D>& m, const Lane& w) {
+      const Lane wd = w * (f(j) - here);
+      sum.x += wd * of_slopes<Lane, D>(m, bx);
+      sum.y += wd * of_slopes<Lane, D>(m, by);
+    });
+    return sum;
+  }
+  KOKKOS_INLINE_FUNCTION Vec<Lane, D> laplacian(int c, const VecField<double, D>& v) const {  // 1/m2 x v
+    const auto beta = load<slopes>(c, laplacian_first);
+    const Vec<Lane, D> here = around.clusters(c).load(v);
+    Vec<Lane, D> sum;
+    around.for_each(c, [&](int j, const Terms<Lane, D>& m, const Lane& w) {
+      sum += (w * of_slopes<Lane, D>(m, beta)) * (broadcast(at(v, j)) - here);
+    });
+    return sum;
+  }
+  KOKKOS_INLINE_FUNCTION Lane divergence(int c, const VecField<double, D>& v) const {        // 1/m x v
+    const auto bx = load<slopes>(c, 0), by = load<slopes>(c, slopes);
+    const Vec<Lane, D> here = around.clusters(c).load(v);
+    Lane sum{0.0};
+    around.for_each(c, [&](int j, const Terms<Lane, D>& m, const Lane& w) {
+      const Vec<Lane, D> d = broadcast(at(v, j)) - here;
+      sum += w * (d.x * of_slopes<Lane, D>(m, bx) + d.y * of_slopes<Lane, D>(m, by));
+    });
+    return sum;
+  }
+  KOKKOS_INLINE_FUNCTION Lane fit(int c, const Field<double>& f) const {
+    const auto beta = load<terms<D>>(c, value_first);
+    Lane sum = beta[0] * around.clusters(c).load(f);
+    around.for_each(c, [&](int j, const Terms<Lane, D>& m, const Lane& w) { sum += w * f(j) * dot(m, beta); });
+    return sum;
+  }
 };
-
-template <>
-KOKKOS_INLINE_FUNCTION Vec<Lane, 2> StencilView<2>::gradient(int c, const Field<double>& f) const {
-  const auto bx = load<slopes>(c, 0), by = load<slopes>(c, slopes);
-  const Lane here = around.clusters(c).load(f);
-  Vec<Lane, 2> sum;
-  around.for_each(c, [&](int j, const Terms<Lane, 2>& m, const Lane& w) {
-    const Lane wd = w * (f(j) - here);
-    sum.x += wd * of_slopes<Lane, 2>(m, bx);
-    sum.y += wd * of_slopes<Lane, 2>(m, by);
-  });
-  return sum;
-}
 
 struct StencilReport {
   int poor = 0;  // points whose neighbours do not determine all derivatives
@@ -54,11 +77,11 @@ class Stencils {
   StencilReport find(const Neighbourhood<D>& around);
   const StencilView<D>& view() const { return view_; }
 
-  // Each for all points of the view; values in the order of the points.
-  void gradient(const Field<double>& f, const VecField<double, D>& result) const;   // 1/m x f
-  void laplacian(const Field<double>& f, const Field<double>& result) const;        // 1/m2 x f
-  void divergence(const VecField<double, D>& v, const Field<double>& result) const;  // 1/m x v
-  void fit(const Field<double>& f, const Field<double>& result) const;              // the fitted value: a filter
+  // Each at all points.
+  void gradient(const Field<double>& f, const VecField<double, D>& result) const;
+  void laplacian(const VecField<double, D>& v, const VecField<double, D>& result) const;
+  void divergence(const VecField<double, D>& v, const Field<double>& result) const;
+  void fit(const Field<double>& f, const Field<double>& result) const;
 
  private:
   StencilView<D> view_;

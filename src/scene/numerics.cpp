@@ -11,8 +11,8 @@ void read_scene_section(Table& section, Scene& scene) {
   Value<std::string> method =
       section.choice<std::string>("method", {{"sph-swe", "sph-swe"}, {"sisph", "sisph"}, {"fpm", "fpm"}});
   scene.method = method.otherwise(scene.method);
-  if (scene.method != "sph-swe") {
-    method.fail("the method '" + scene.method + "' is not built yet", "use method = \"sph-swe\"");
+  if (scene.method != "sph-swe" && scene.method != "fpm") {
+    method.fail("the method '" + scene.method + "' is not built yet", "use method = \"sph-swe\" or \"fpm\"");
   }
   scene.gravity = section.number("gravity", "m/s2").positive().otherwise(scene.gravity);
   section.context().gravity = scene.gravity;

@@ -66,7 +66,7 @@ Errors errors_on_waves(int n) {
   const VecField<double, 2> g{sheet.make("gx"), sheet.make("gy")};
   const auto lap = sheet.make("lap");
   sheet.stencils.gradient(f, g);
-  sheet.stencils.laplacian(f, lap);
+  sheet.stencils.laplacian({f, f}, {lap, lap});
   double g2 = 0, l2 = 0;
   int count = 0;
   for (int i = 0; i < sheet.fields.size(); ++i) {
@@ -111,7 +111,7 @@ double quadratic_deviation(Sheet& sheet) {
   const VecField<double, 2> g{sheet.make("gx"), sheet.make("gy")};
   const auto lap = sheet.make("lap"), fit = sheet.make("fit");
   sheet.stencils.gradient(f, g);
-  sheet.stencils.laplacian(f, lap);
+  sheet.stencils.laplacian({f, f}, {lap, lap});
   sheet.stencils.fit(f, fit);
   double worst = 0;
   for (int i = 0; i < sheet.fields.size(); ++i) {
@@ -138,7 +138,7 @@ TEST_CASE("MLS stencils equal a QR of the unscaled problem") {
   const VecField<double, 2> g{sheet.make("gx"), sheet.make("gy")};
   const auto lap = sheet.make("lap");
   sheet.stencils.gradient(f, g);
-  sheet.stencils.laplacian(f, lap);
+  sheet.stencils.laplacian({f, f}, {lap, lap});
   for (int i = 0; i < sheet.fields.size(); i += 17) {
     const Vector d = by_qr(sheet, f, i);
     CHECK(g.x(i) == Approx(static_cast<double>(d(0))).epsilon(1e-9).margin(1e-10));

@@ -1,0 +1,334 @@
+#include "kernels/linear/bin_multigrid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace freshet::linear {
+namespace {
+
+void grow(Field<int>& field, const char* label, int n) {
+  if (field.extent_int(0) < n) field = Field<int>(label, static_cast<size_t>(n + n / 2 + 16));
+}
+// Zero-filled, with room for a last partial block.
+void grow(Vector& field, const char* label, int n) {
+  if (field.extent_int(0) < n + lanes) field = Vector(label, static_cast<size_t>(n + n / 2 + 16 + lanes));
+}
+template <class View>
+void grow(View& table, const char* label, int n, int width) {
+  if (table.extent_int(0) >= n + lanes && table.extent_int(1) >= width) return;
+  table = View(label, static_cast<size_t>(n + n / 2 + 16 + lanes), static_cast<size_t>(width));
+}
+
+int halved(int n) { return (n + 1) / 2; }
+
+// The points' matrix with the words of BinLevel.
+struct Points {
+  ClusterMatrix m;
+  int blocks() const { return m.clusters.size(); }
+  KOKKOS_FORCEINLINE_FUNCTION Lanes block(int c) const { return m.clusters(c); }
+  KOKKOS_FORCEINLINE_FUNCTION Lane times(int c, const Vector& v) const { return m.clusters(c).load(v) + m.off_diagonal(c, v); }
+  KOKKOS_FORCEINLINE_FUNCTION Lane per_diagonal(int) const { return 1.0; }
+};
+
+// to := damping D^-1 b
+template <class Level>
+void smooth_zero(const Level& level, const Vector& b, const Vector& to, double damping) {
+  Kokkos::parallel_for("multigrid::smooth_zero", Range(0, level.blocks()), KOKKOS_LAMBDA(int c) {
+        const Lanes me = level.block(c);
+        me.store(to, damping * level.per_diagonal(c) * me.load(b));
+      });
+}
+
+// to := x + damping D^-1 (b - A x)
+template <class Level>
+void smooth(const Level& level, const Vector& b, const Vector& x, const Vector& to, double damping) {
+  Kokkos::parallel_for("multigrid::smooth", Range(0, level.blocks()), KOKKOS_LAMBDA(int c) {
+        const Lanes me = level.block(c);
+        me.store(to, me.load(x) + damping * level.per_diagonal(c) * (me.load(b) - level.times(c, x)));
+      });
+}
+
+// Sweeps from zero; the result is in x, y is scratch.
+template <class Level>
+void smooth_from_zero(const Level& level, const Vector& b, Vector& x, Vector& y, const MultigridOptions& options) {
+  smooth_zero(level, b, x, options.damping);
+  for (int s = 1; s < options.sweeps; ++s, std::swap(x, y)) smooth(level, b, x, y, options.damping);
+}
+
+// to := b - A x
+template <class Level>
+void find_residual(const Level& level, const Vector& b, const Vector& x, const Vector& to) {
+  Kokkos::parallel_for("multigrid::residual", Range(0, level.blocks()), KOKKOS_LAMBDA(int c) {
+        const Lanes me = level.block(c);
+        me.store(to, me.load(b) - level.times(c, x));
+      });
+}
+
+// x += factor e(parent)
+void add_coarse(int n, const Field<int>& parent, double factor, const Vector& e, const Vector& x) {
+  Kokkos::parallel_for("multigrid::add_coarse", Range(0, n), KOKKOS_LAMBDA(int i) {
+        if (parent(i) >= 0) x(i) += factor * e(parent(i));
+      });
+}
+
+// Calls see(first, end) with the points of a bin of the first level.
+struct PointsOfBins {
+  Rows rows;
+  int bins;  // of the rows' in one
+  int nx;
+  KOKKOS_FORCEINLINE_FUNCTION int first(int bin) const { return rows.start(bin / nx * rows.bins + bin % nx * bins); }
+  KOKKOS_FORCEINLINE_FUNCTION int end(int bin) const {
+    return rows.start(bin / nx * rows.bins + smaller((bin % nx + 1) * bins, rows.bins));
+  }
+};
+
+// Calls see(unknown) for the unknowns of the finer level in a bin.
+template <class See>
+KOKKOS_FORCEINLINE_FUNCTION void for_each_child(const BinLevel& fine, const BinLevel& coarse, int bin, const See& see) {
+  const int x0 = 2 * (bin % coarse.nx), y0 = 2 * (bin / coarse.nx);
+  for (int y = y0; y < smaller(y0 + 2, fine.ny); ++y)
+    for (int x = x0; x < smaller(x0 + 2, fine.nx); ++x)
+      if (fine.number(y * fine.nx + x) >= 0) see(fine.number(y * fine.nx + x));
+}
+
+// Finds which bin each fine unknown's is, once the coarse bins are numbered.
+void find_parents(const BinLevel& fine, const BinLevel& coarse) {
+  const BinLevel f = fine, c = coarse;
+  Kokkos::parallel_for("multigrid::parents", Range(0, fine.size), KOKKOS_LAMBDA(int k) {
+        f.parent(k) = c.number(f.bin(k) / f.nx / 2 * c.nx + f.bin(k) % f.nx / 2);
+      });
+}
+
+void reserve(BinLevel& level) {
+  const int n = level.size;
+  grow(level.bin, "multigrid.bin", n);
+  grow(level.parent, "multigrid.parent", n);
+  grow(level.weight, "multigrid.weight", n);
+  grow(level.a, "multigrid.a", n, level.width());
+  grow(level.column, "multigrid.column", n, level.width());
+  for (Vector* v : {&level.inverse_diagonal, &level.b, &level.x, &level.y}) grow(*v, "multigrid.vector", n);
+}
+
+// Zero rows with their columns; a slot without unknown refers to its own row.
+void clear_rows(const BinLevel& level) {
+  Kokkos::parallel_for("multigrid::clear_rows", Range(0, level.size), KOKKOS_LAMBDA(int k) {
+        for (int s = 0; s < level.width(); ++s) {
+          const int j = level.unknown(level.bin(k), s);
+          level.a(k, s) = 0;
+          level.column(k, s) = j < 0 ? k : j;
+        }
+      });
+}
+
+void invert_diagonal(const BinLevel& level) {
+  Kokkos::parallel_for("multigrid::diagonal", Range(0, level.size), KOKKOS_LAMBDA(int k) {
+        const double d = level.a(k, level.centre());
+        level.inverse_diagonal(k) = d > 1e-3 * level.weight(k) ? 1 / d : 1 / level.weight(k);  // rows near zero are not smoothed by them
+      });
+}
+
+// In place, by Gauss and Jordan with row exchanges. A column without a pivot counts as solved by zero.
+template <class View>
+void invert(const View& m, int n) {
+  std::vector<int> from(static_cast<std::size_t>(n));
+  for (int k = 0; k < n; ++k) {
+    int best = k;
+    for (int i = k + 1; i < n; ++i) best = std::abs(m(i, k)) > std::abs(m(best, k)) ? i : best;
+    from[static_cast<std::size_t>(k)] = best;
+    for (int j = 0; j < n && best != k; ++j) std::swap(m(k, j), m(best, j));
+    const double pivot = m(k, k), inverse = std::abs(pivot) > 1e-12 ? 1 / pivot : 0;
+    m(k, k) = 1;
+    for (int j = 0; j < n; ++j) m(k, j) *= inverse;
+    for (int i = 0; i < n; ++i) {
+      const double factor = i == k ? 0 : m(i, k);
+      if (factor == 0) continue;
+      m(i, k) = 0;
+      for (int j = 0; j < n; ++j) m(i, j) -= factor * m(k, j);
+    }
+  }
+  for (int k = n - 1; k >= 0; --k)
+    for (int i = 0; i < n; ++i) std::swap(m(i, k), m(i, from[static_cast<std::size_t>(k)]));
+}
+
+}  // namespace
+
+void BinMultigrid::find_clusters() {
+  const ClusterMatrix m = matrix_;
+  grow(cluster_, "multigrid.cluster", m.rows);
+  const Field<int> cluster = cluster_;
+  Kokkos::parallel_for("multigrid::clusters", Range(0, m.clusters.size()), KOKKOS_LAMBDA(int c) {
+        const Lanes me = m.clusters(c);
+        for (int l = 0; l < me.count; ++l) cluster(me.first + l) = c;
+      });
+}
+
+// Numbers the bins whose `number` is not negative, in their order, and lists them.
+void BinMultigrid::number_bins(BinLevel& level) {
+  const Field<int> number = level.number;
+  Kokkos::parallel_scan("multigrid::number", Range(0, level.nx * level.ny), KOKKOS_LAMBDA(int bin, int& sum, bool last) {
+        const bool holds = number(bin) >= 0;
+        if (last && holds) number(bin) = sum;
+        sum += holds;
+      }, level.size);
+  reserve(level);
+  const BinLevel l = level;
+  Kokkos::parallel_for("multigrid::list_bins", Range(0, level.nx * level.ny), KOKKOS_LAMBDA(int bin) {
+        if (l.number(bin) >= 0) l.bin(l.number(bin)) = bin;
+      });
+}
+
+void BinMultigrid::build(const ClusterMatrix& matrix, const Field<int>& free, const Grid& grid, bool singular) {
+  const Region region("multigrid::build");
+  matrix_ = matrix;
+  free_ = free;
+  rows_ = grid.rows;
+  bins_ = static_cast<int>(std::fmax(1, std::round(rows_.row_height / rows_.bin_width)));
+  if (levels_.empty()) levels_.resize(1);
+  grow(y_, "multigrid.y", matrix.rows);
+  find_clusters();
+  BinLevel& first = levels_.front();
+  first.nx = (rows_.bins - 1) / bins_ + 1;
+  first.ny = rows_.rows;
+  first.rx = static_cast<int>(std::ceil(grid.reach / (bins_ * rows_.bin_width)));
+  first.ry = static_cast<int>(std::ceil(grid.reach / rows_.row_height));
+  first.wrap_x = grid.wrap_x;
+  first.wrap_y = grid.wrap_y;
+  sum_points(first);
+  for (depth_ = 1; levels_[static_cast<std::size_t>(depth_ - 1)].size > options_.coarsest; ++depth_) {
+    if (levels_.size() == static_cast<std::size_t>(depth_)) levels_.emplace_back();
+    sum_bins(levels_[static_cast<std::size_t>(depth_ - 1)], levels_[static_cast<std::size_t>(depth_)]);
+  }
+  invert_last(singular);
+}
+
+void BinMultigrid::sum_points(BinLevel& level) {
+  grow(level.number, "multigrid.number", level.nx * level.ny);
+  grow(parent_, "multigrid.point_parent", matrix_.rows);
+  const PointsOfBins points{rows_, bins_, level.nx};
+  const Field<int> number = level.number, free = free_, parent = parent_, cluster = cluster_;
+  Kokkos::parallel_for("multigrid::mark_bins", Range(0, level.nx * level.ny), KOKKOS_LAMBDA(int bin) {
+        int holds = -1;
+        for (int i = points.first(bin); i < points.end(bin); ++i) holds = free(i) ? 1 : holds;
+        number(bin) = holds;
+      });
+  number_bins(level);
+  const BinLevel l = level;
+  const ClusterMatrix m = matrix_;
+  Kokkos::parallel_for("multigrid::point_parents", Range(0, level.nx * level.ny), KOKKOS_LAMBDA(int bin) {
+        for (int i = points.first(bin); i < points.end(bin); ++i) parent(i) = free(i) ? l.number(bin) : -1;
+      });
+  clear_rows(level);
+  Kokkos::parallel_for("multigrid::sum_points", Range(0, level.size), KOKKOS_LAMBDA(int k) {
+        double members = 0;
+        for (int i = points.first(l.bin(k)); i < points.end(l.bin(k)); ++i) {
+          if (!free(i)) continue;
+          members += 1;
+          const int c = cluster(i), lane = i - m.clusters(c).first;
+          for (int p = 0; p < m.near.length(c); ++p) {
+            const int to = parent(m.near.list(c, p));
+            if (to >= 0 && m.a(c, p, lane) != 0) l.a(k, l.slot(l.bin(k), l.bin(to))) += m.a(c, p, lane);
+          }
+        }
+        l.a(k, l.centre()) += members;  // the diagonal's ones
+        l.weight(k) = members;
+      });
+  invert_diagonal(level);
+}
+
+void BinMultigrid::sum_bins(const BinLevel& fine, BinLevel& coarse) {
+  coarse.nx = halved(fine.nx);
+  coarse.ny = halved(fine.ny);
+  coarse.rx = halved(fine.rx);
+  coarse.ry = halved(fine.ry);
+  coarse.wrap_x = fine.wrap_x;
+  coarse.wrap_y = fine.wrap_y;
+  grow(coarse.number, "multigrid.number", coarse.nx * coarse.ny);
+  const BinLevel f = fine, grid = coarse;
+  Kokkos::parallel_for("multigrid::mark_bins", Range(0, coarse.nx * coarse.ny), KOKKOS_LAMBDA(int bin) {
+        grid.number(bin) = -1;
+        for_each_child(f, grid, bin, [&](int) { grid.number(bin) = 1; });
+      });
+  number_bins(coarse);
+  find_parents(fine, coarse);
+  clear_rows(coarse);
+  const BinLevel l = coarse;
+  Kokkos::parallel_for("multigrid::sum_bins", Range(0, coarse.size), KOKKOS_LAMBDA(int k) {
+        l.weight(k) = 0;
+        for_each_child(f, l, l.bin(k), [&](int i) {
+          l.weight(k) += f.weight(i);
+          for (int s = 0; s < f.width(); ++s)
+            if (f.a(i, s) != 0) l.a(k, l.slot(l.bin(k), l.bin(f.parent(f.column(i, s))))) += f.a(i, s);
+        });
+      });
+  invert_diagonal(coarse);
+}
+
+// On the host, which few unknowns allow.
+void BinMultigrid::invert_last(bool singular) {
+  const BinLevel& last = levels_[static_cast<std::size_t>(depth_ - 1)];
+  const auto a = on_host(last.a);
+  const auto column = on_host(last.column);
+  const auto weight = on_host(last.weight);
+  const int n = last.size;
+  if (inverse_.extent_int(0) < n) inverse_ = Table("multigrid.inverse", static_cast<size_t>(n), static_cast<size_t>(n));
+  const auto dense = Kokkos::create_mirror_view(inverse_);
+  double members = 0;
+  for (int k = 0; k < n; ++k) members += weight(k);
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) dense(i, j) = singular ? weight(i) * weight(j) / members : 0;
+    for (int s = 0; s < last.width(); ++s) dense(i, column(i, s)) += a(i, s);
+  }
+  invert(dense, n);
+  Kokkos::deep_copy(inverse_, dense);
+}
+
+void BinMultigrid::operator()(const Vector& r, const Vector& z) {
+  const Region region("multigrid::cycle");
+  const Points points{matrix_};
+  Vector x = z, y = y_;
+  smooth_from_zero(points, r, x, y, options_);
+  find_residual(points, r, x, y);
+  const BinLevel& first = levels_.front();
+  const PointsOfBins bins{rows_, bins_, first.nx};
+  const Field<int> bin = first.bin;
+  const Vector b = first.b;
+  Kokkos::parallel_for("multigrid::restrict_points", Range(0, first.size), KOKKOS_LAMBDA(int k) {
+        double sum = 0;
+        for (int i = bins.first(bin(k)); i < bins.end(bin(k)); ++i) sum += y(i);
+        b(k) = sum;
+      });
+  cycle(0);
+  add_coarse(matrix_.rows, parent_, options_.over_correction, first.x, x);
+  for (int s = 0; s < options_.sweeps; ++s, std::swap(x, y)) smooth(points, r, x, y, options_.damping);
+  if (x.data() != z.data()) Kokkos::deep_copy(Kokkos::subview(z, std::make_pair(0, matrix_.rows)), Kokkos::subview(x, std::make_pair(0, matrix_.rows)));
+}
+
+// level.x := one cycle on level.b.
+void BinMultigrid::cycle(int depth) {
+  BinLevel& level = levels_[static_cast<std::size_t>(depth)];
+  const Vector b = level.b;
+  if (depth + 1 == depth_) {
+    const auto inverse = inverse_;
+    const Vector x = level.x;
+    const int n = level.size;
+    Kokkos::parallel_for("multigrid::coarsest", Range(0, n), KOKKOS_LAMBDA(int i) {
+          double sum = 0;
+          for (int j = 0; j < n; ++j) sum += inverse(i, j) * b(j);
+          x(i) = sum;
+        });
+    return;
+  }
+  smooth_from_zero(level, b, level.x, level.y, options_);
+  find_residual(level, b, level.x, level.y);
+  const BinLevel fine = level, coarse = levels_[static_cast<std::size_t>(depth + 1)];
+  Kokkos::parallel_for("multigrid::restrict", Range(0, coarse.size), KOKKOS_LAMBDA(int k) {
+        double sum = 0;
+        for_each_child(fine, coarse, coarse.bin(k), [&](int i) { sum += fine.y(i); });
+        coarse.b(k) = sum;
+      });
+  cycle(depth + 1);
+  add_coarse(level.size, level.parent, options_.over_correction, levels_[static_cast<std::size_t>(depth + 1)].x, level.x);
+  for (int s = 0; s < options_.sweeps; ++s, std::swap(level.x, level.y)) smooth(level, b, level.x, level.y, options_.damping);
+}
+
+}  // namespace freshet::linear
