@@ -28,11 +28,12 @@ struct Mechanics {
   double potential = 0;              // m5/s2, of the column's middle above z = 0
 };
 
-// State at a fixed point: Shepard mean over the fluid particles within 2h.
+// State at a fixed point: Shepard mean over the fluid particles within 2h. Incompressible methods: depth is what the gauge asks for.
 struct PointState {
   double bed = 0;         // m
   double depth = 0;       // m, 0 if no particle reaches the point
   bool reached = false;   // some particle's support covers it
+  bool thin_is_dry = true;  // a value near zero means that there is no water
 };
 
 // How the numerics of the last step fared.
@@ -66,6 +67,12 @@ class Method {
   virtual StepReport report() const = 0;
   // What only shallow water has; other scenes do not ask for it.
   virtual std::vector<PointState> sample(const std::vector<Point>& points) const { return std::vector<PointState>(points.size()); }
+  // What each gauge shows.
+  virtual std::vector<PointState> gauge(const std::vector<Gauge>& gauges) const {
+    std::vector<Point> points;
+    for (const Gauge& g : gauges) points.push_back(g.at);
+    return sample(points);
+  }
   // Highest bed level [m] under a fluid particle at least min_depth (third) deep within radius (second) of the point; -1e300 if none.
   virtual double highest_wet_bed(const Point&, double, double) const { return -1e300; }
   virtual std::vector<std::string> features() const = 0;  // what this scene switched on, for `check` and the log

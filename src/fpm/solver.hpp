@@ -21,6 +21,7 @@ class Solver : public Method {
   Mechanics mechanics() const override;
   StepReport report() const override { return report_; }
   std::vector<std::string> features() const override;
+  std::vector<PointState> gauge(const std::vector<Gauge>& gauges) const override;
   ScalarState scalars() const override;
   void restore(const ScalarState& scalars) override;
 

@@ -38,6 +38,7 @@ void read_fpm_sections(Table& root, Table& head, Scene& scene) {
   read_each(root, "wall", scene, read_wall);
   if (root.size_of("body") == 0) root.error("body", "the scene has no [[body]]: there is no water", "add [[body]] with a box, circle or polygon");
   read_each(root, "body", scene, read_body);
+  read_each(root, "gauge", scene, read_gauge);
   read_time(time, {}, scene);
   read_output(output, scene);
   read_limits(limits, scene);

@@ -84,6 +84,8 @@ struct OpenBoundary {
 struct Gauge {
   std::string name;
   Point at{};
+  // Method "fpm" only, but for elevation: pressure at the point [Pa]; front: the water's largest x [m], wherever it is.
+  enum class What { elevation, pressure, front } what = What::elevation;
   std::optional<Series> measured;  // m, free-surface elevation, times increasing
   double peak_after = 0;           // s, peaks and arrivals are taken after this time
   double arrival_level = 0.01;     // m, first crossing of this elevation counts as arrival
