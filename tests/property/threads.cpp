@@ -157,7 +157,7 @@ TEST_CASE("threads: one and two give the same bytes: splitting and merging") {
 }
 
 TEST_CASE("threads: one and two give the same bytes: incompressible dam break") {
-  check_threads({"cases/fpm_dam_break.toml", "water.spacing=0.003", "time.end=0.05"});
+  check_threads({"cases/fpm_martin_moyce.toml", "water.spacing=0.004", "time.end=0.05"});
 }
 
 TEST_CASE("threads: one and two give the same bytes: open channel") {
