@@ -44,8 +44,7 @@ struct AssembleRows {
     me.store(per_flux, equation_weight * h * dot(r_b, beta));
     int k = 0;
     around.for_each(c, [&](int, const Terms<Lane, D>& m, const Lane& w) {
-      const Lane entry = -w * dot(m, beta);
-      __builtin_memcpy(&matrix.a(c, k++, 0), &entry, sizeof entry);
+      matrix.set(c, k++, -w * dot(m, beta));
     });
   }
 };
@@ -60,8 +59,10 @@ void Poisson<D>::reserve() {
   if (free_.extent_int(0) < n) free_ = Field<int>("fpm.free", static_cast<size_t>(n + n / 2));
   if (matrix_.a.extent_int(0) >= clusters && matrix_.a.extent_int(1) >= longest) return;
   matrix_.a = {};
-  matrix_.a = decltype(matrix_.a)(Kokkos::ViewAllocateWithoutInitializing("fpm.matrix"), static_cast<size_t>(clusters + clusters / 4),
-                                  static_cast<size_t>(longest), static_cast<size_t>(lanes));
+  matrix_.single = {};
+  const size_t room = static_cast<size_t>(clusters + clusters / 4), width = static_cast<size_t>(longest), w = static_cast<size_t>(lanes);
+  matrix_.a = decltype(matrix_.a)(Kokkos::ViewAllocateWithoutInitializing("fpm.matrix"), room, width, w);
+  matrix_.single = decltype(matrix_.single)(Kokkos::ViewAllocateWithoutInitializing("fpm.matrix_single"), room, width, w);
 }
 
 template <int D>

@@ -30,7 +30,7 @@ struct Points {
   ClusterMatrix m;
   int blocks() const { return m.clusters.size(); }
   KOKKOS_FORCEINLINE_FUNCTION Lanes block(int c) const { return m.clusters(c); }
-  KOKKOS_FORCEINLINE_FUNCTION Lane times(int c, const Vector& v) const { return m.clusters(c).load(v) + m.off_diagonal(c, v); }
+  KOKKOS_FORCEINLINE_FUNCTION Lane times(int c, const Vector& v) const { return m.clusters(c).load(v) + m.off_diagonal_rough(c, v); }
   KOKKOS_FORCEINLINE_FUNCTION Lane per_diagonal(int) const { return 1.0; }
 };
 
