@@ -66,9 +66,9 @@ struct PointsOfBins {
   Rows rows;
   int bins;  // of the rows' in one
   int nx;
-  KOKKOS_FORCEINLINE_FUNCTION int first(int bin) const { return rows.start(bin / nx * rows.bins + bin % nx * bins); }
+  KOKKOS_FORCEINLINE_FUNCTION int first(int bin) const { return rows.begin(bin / nx, bin % nx * bins); }
   KOKKOS_FORCEINLINE_FUNCTION int end(int bin) const {
-    return rows.start(bin / nx * rows.bins + smaller((bin % nx + 1) * bins, rows.bins));
+    return rows.end(bin / nx, smaller((bin % nx + 1) * bins, rows.bins) - 1);
   }
 };
 
