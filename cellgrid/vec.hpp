@@ -26,12 +26,25 @@ struct Vec<V, 2> {
 };
 
 template <class V>
+struct Vec<V, 3> {
+  V x{0.0}, y{0.0}, z{0.0};
+  KOKKOS_FORCEINLINE_FUNCTION Vec& operator+=(const Vec& b) { return x += b.x, y += b.y, z += b.z, *this; }
+  friend KOKKOS_FORCEINLINE_FUNCTION Vec operator+(const Vec& a, const Vec& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend KOKKOS_FORCEINLINE_FUNCTION Vec operator-(const Vec& a, const Vec& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend KOKKOS_FORCEINLINE_FUNCTION Vec operator*(const V& s, const Vec& a) { return {s * a.x, s * a.y, s * a.z}; }
+};
+
+template <class V>
 KOKKOS_FORCEINLINE_FUNCTION V dot(const Vec<V, 1>& a, const Vec<V, 1>& b) {
   return a.x * b.x;
 }
 template <class V>
 KOKKOS_FORCEINLINE_FUNCTION V dot(const Vec<V, 2>& a, const Vec<V, 2>& b) {
   return a.x * b.x + a.y * b.y;
+}
+template <class V>
+KOKKOS_FORCEINLINE_FUNCTION V dot(const Vec<V, 3>& a, const Vec<V, 3>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
 // Symmetric matrix.

@@ -29,11 +29,12 @@ struct Mechanics {
   double potential = 0;              // m5/s2, of the column's middle above z = 0
 };
 
-// State at a fixed point: Shepard mean over the fluid particles within 2h.
+// State at a fixed point: Shepard mean over the fluid particles within 2h. Incompressible methods: depth is what the gauge asks for.
 struct PointState {
   double bed = 0;         // m
   double depth = 0;       // m, 0 if no particle reaches the point
   bool reached = false;   // some particle's support covers it
+  bool thin_is_dry = true;  // a value near zero means that there is no water
 };
 
 // How the numerics of the last step fared.
@@ -43,6 +44,7 @@ struct StepReport {
   long rebuilds = 0;          // neighbour lists made again because h outgrew the margin, since t = 0
   int capped = 0, floored = 0;  // particles whose h sits at its bounds
   long solves = 0, iterations = 0, unsettled = 0;  // implicit: linear solves, their iterations, passes that reached the cap, since t = 0
+  int pressure_iterations = 0;  // of the incompressible methods
 };
 
 // Scalars that a method must find again on resume, by name.
@@ -56,8 +58,9 @@ class Method {
   virtual int dimension() const = 0;
   virtual double stable_dt() const = 0;               // s, for the state at hand
   virtual void step(double t, double dt) = 0;         // from t to t + dt
-  // Fields of a shallow-water method: x, y [m], u, v [m/s], depth [m], bed [m], mass [m3], h [m], id (int),
-  // kind (int, only with open boundaries: 0 fluid, > 0 boundary particle of that piece of line). 1-D has no y, v; a flat bed has no bed field.
+  // Fields of every method: x, y [m], u, v [m/s], id (int). 1-D has no y, v.
+  // Shallow water: depth [m], bed [m] (not where it is flat), mass [m3], h [m], kind (int, only with open boundaries: 0 fluid,
+  // > 0 boundary particle of that piece of line). Incompressible: p [Pa], surface (int, 1 on the free surface).
   virtual FieldSet& fields() = 0;
   virtual const FieldSet& fields() const = 0;
   virtual const Rows& rows() const = 0;               // the order that the particles are in, with the reach of their h
@@ -66,9 +69,16 @@ class Method {
   virtual StepReport report() const = 0;
   // Modelled work of one launch, by label, for the state at hand; a method may leave some or all of its launches out.
   virtual std::map<std::string, Work> work() const { return {}; }
-  virtual std::vector<PointState> sample(const std::vector<Point>& points) const = 0;
-  // Highest bed level [m] under a fluid particle at least min_depth deep within radius of the point; -1e300 if none.
-  virtual double highest_wet_bed(const Point& at, double radius, double min_depth) const = 0;
+  // What only shallow water has; other scenes do not ask for it.
+  virtual std::vector<PointState> sample(const std::vector<Point>& points) const { return std::vector<PointState>(points.size()); }
+  // What each gauge shows.
+  virtual std::vector<PointState> gauge(const std::vector<Gauge>& gauges) const {
+    std::vector<Point> points;
+    for (const Gauge& g : gauges) points.push_back(g.at);
+    return sample(points);
+  }
+  // Highest bed level [m] under a fluid particle at least min_depth (third) deep within radius (second) of the point; -1e300 if none.
+  virtual double highest_wet_bed(const Point&, double, double) const { return -1e300; }
   virtual std::vector<std::string> features() const = 0;  // what this scene switched on, for `check` and the log
 
   virtual ScalarState scalars() const = 0;                // with the saved fields (is_saved):

@@ -36,11 +36,19 @@ std::string text_of(const GaugeRow& row) {
 
 }  // namespace
 
+namespace {
+
+const char* title(Gauge::What what) {
+  return what == Gauge::What::pressure ? " pressure [Pa]" : what == Gauge::What::front ? " front [m]" : " elevation [m]";
+}
+
+}  // namespace
+
 void GaugeFile::create(const std::vector<Gauge>& gauges) {
   file_.open(path_, std::ios::binary | std::ios::trunc);
   std::string header = "t [s]";
   for (const auto& gauge : gauges)
-    header += ',' + csv_word(gauge.name + " elevation [m]") + ',' + csv_word(gauge.name + " dry");
+    header += ',' + csv_word(gauge.name + title(gauge.what)) + ',' + csv_word(gauge.name + " dry");
   write(header);
 }
 

@@ -1,4 +1,4 @@
-// gauges.csv: one row per gauge time with elevation [m] and a dry mark (1 = dry) per gauge; flushed after
+// gauges.csv: one row per gauge time with elevation [m] (or what the gauge shows) and a dry mark (1 = dry) per gauge; flushed after
 // each row. Numbers have the shortest digits that read back to the same bits. Failures are IoError.
 #pragma once
 #include <fstream>

@@ -12,7 +12,7 @@ namespace freshet {
 namespace {
 
 const std::string prefix = "Step#";
-const char* const units = "x m, y m, z m (free surface), depth m, v_0 m/s, v_1 m/s, id 1, TimeValue s";
+const char* const units = "x m, y m, z m (free surface), depth m, p Pa, v_0 m/s, v_1 m/s, id 1, TimeValue s";
 constexpr std::uint64_t metadata_bytes = 64 * 1024;  // groups and headers of one step, generously
 
 std::string group_name(int step) { return prefix + std::to_string(step); }
@@ -35,6 +35,15 @@ std::vector<int> step_numbers(const hdf5::File& file) {
 std::string folder_of(const std::string& path) {
   const auto parent = std::filesystem::path(path).parent_path();
   return parent.empty() ? "." : parent.string();
+}
+
+// What incompressible methods have instead of a depth.
+void write_pressure(const hdf5::Group& group, const FieldSet& fields) {
+  const auto n = static_cast<std::size_t>(fields.size());
+  const auto p = on_host(fields.real("p"));
+  const auto flag = on_host(fields.integer("surface"));
+  group.write("p", std::vector<double>(p.data(), p.data() + n), hdf5::Stored::float32);
+  group.write("surface", std::vector<int>(flag.data(), flag.data() + n));
 }
 
 }  // namespace
@@ -60,11 +69,14 @@ void ParticleFile::append(int step, double t, const FieldSet& fields) const {
     group.attribute("TimeValue", t);
     group.write("x", fluid.x);
     group.write("y", fluid.y);
-    group.write("z", surface(fluid), hdf5::Stored::float32);
-    group.write("depth", fluid.depth, hdf5::Stored::float32);
+    if (find_real(fields, "depth")) {
+      group.write("z", surface(fluid), hdf5::Stored::float32);
+      group.write("depth", fluid.depth, hdf5::Stored::float32);
+    }
     group.write("v_0", fluid.u, hdf5::Stored::float32);
     if (find_real(fields, "v")) group.write("v_1", fluid.v, hdf5::Stored::float32);
     group.write("id", fluid.id);
+    if (find_real(fields, "p")) write_pressure(group, fields);
   }
   file.close();
 }
@@ -100,8 +112,8 @@ ParticleStep read_particle_step(const std::string& path, int step) {
   read.t = group.real_attribute("TimeValue");
   read.x = group.reals("x");
   read.y = group.reals("y");
-  read.z = group.reals("z");
-  read.depth = group.reals("depth");
+  read.z = group.has("z") ? group.reals("z") : std::vector<double>(read.x.size(), 0.0);
+  read.depth = group.has("depth") ? group.reals("depth") : read.z;
   read.v_0 = group.reals("v_0");
   if (group.has("v_1")) read.v_1 = group.reals("v_1");
   read.id = group.integers("id");

@@ -1,4 +1,5 @@
 #include "src/errors.hpp"
+#include "src/fpm/solver.hpp"
 #include "src/method.hpp"
 #include "src/sisph/solver.hpp"
 #include "src/swe/solver.hpp"
@@ -18,7 +19,8 @@ std::unique_ptr<Method> in_dimension(const Scene& scene) {
 std::unique_ptr<Method> make_method(const Scene& scene) {
   if (scene.method == "sph-swe") return in_dimension<swe::Solver>(scene);
   if (scene.method == "sisph") return in_dimension<sisph::Solver>(scene);
-  throw SceneError("scene.method '" + scene.method + "' is none of: sph-swe, sisph");
+  if (scene.method == "fpm") return std::make_unique<fpm::Solver>(scene);
+  throw SceneError("scene.method '" + scene.method + "' is none of: sph-swe, sisph, fpm");
 }
 
 }  // namespace freshet

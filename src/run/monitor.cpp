@@ -54,7 +54,8 @@ Field<double> field_or(const FieldSet& fields, const char* name, const char* fal
 int count_bad(const FieldSet& fields, const Allowed& in) {
   const Input<double> x = field_or(fields, "x", "x"), y = field_or(fields, "y", "x");
   const Input<double> u = field_or(fields, "u", "u"), v = field_or(fields, "v", "u");
-  const Input<double> depth = field_or(fields, "depth", "depth");
+  const Input<double> depth = field_or(fields, "depth", "x");
+  const int no_depth = find_real(fields, "depth") ? 0 : 1;
   const double limit2 = in.speed * in.speed, second = find_real(fields, "v") ? 1 : 0;
   int bad = 0;
   Kokkos::parallel_reduce(
@@ -62,7 +63,7 @@ int count_bad(const FieldSet& fields, const Allowed& in) {
       KOKKOS_LAMBDA(int i, int& count) {
         // Without short cuts: no branch keeps the compiler from vectors.
         const int inside = (x(i) >= in.x_low) & (x(i) <= in.x_high) & (y(i) >= in.y_low) & (y(i) <= in.y_high);
-        const int sound = (depth(i) >= 0) & (depth(i) < infinity) & (u(i) * u(i) + second * v(i) * v(i) <= limit2);
+        const int sound = (no_depth | ((depth(i) >= 0) & (depth(i) < infinity))) & (u(i) * u(i) + second * v(i) * v(i) <= limit2);
         count += 1 - (inside & sound);
       },
       bad);
@@ -97,7 +98,7 @@ class Particles {
                  speed = std::hypot(u_(i), v);
     if (const std::string value = not_finite(i); !value.empty())
       return value + "; limit: every value is finite";
-    if (depth_(i) < 0) return "depth = " + text(depth_(i)) + " m; limit: no depth is negative";
+    if (depth_.extent(0) && depth_(i) < 0) return "depth = " + text(depth_(i)) + " m; limit: no depth is negative";
     if (speed > in.speed) {
       return "speed = " + text(speed) + " m/s; limit: limits.speed = " + text(in.speed) + " m/s";
     }

@@ -17,6 +17,7 @@ PointState between(const PointState& a, const PointState& b, double w) {
   state.bed = lerp(a.bed, b.bed, w);
   state.depth = lerp(a.reached ? a.depth : 0, b.reached ? b.depth : 0, w);
   state.reached = a.reached || b.reached;
+  state.thin_is_dry = b.thin_is_dry;
   return state;
 }
 
@@ -26,27 +27,25 @@ GaugeRecorder::GaugeRecorder(const Scene& scene, const std::string& path)
     : gauges_(scene.gauges),
       folder_(std::filesystem::path(path).parent_path().string()),
       times_(regular_times(interval(scene), scene.end_time)),
-      file_(path) {
-  for (const auto& gauge : gauges_) points_.push_back(gauge.at);
-}
+      file_(path) {}
 
 void GaugeRecorder::begin(const Method& method) {
   if (absent()) return;
   file_.create(gauges_);
   write_measured((std::filesystem::path(folder_) / "measured.csv").string(), gauges_);
-  write(0, method.sample(points_));
+  write(0, method.gauge(gauges_));
   times_.advance();
 }
 
 void GaugeRecorder::watch(const Method& method, double t, double until) {
   if (absent() || times_.next() > until || watched_t_ == t) return;
-  watched_ = method.sample(points_);
+  watched_ = method.gauge(gauges_);
   watched_t_ = t;
 }
 
 void GaugeRecorder::record(const Method& method, double t) {
   if (absent() || !times_.due(t)) return;
-  const auto now = method.sample(points_);
+  const auto now = method.gauge(gauges_);
   for (; times_.due(t); times_.advance()) {
     const double w = (times_.next() - watched_t_) / (t - watched_t_);
     std::vector<PointState> states;
@@ -61,7 +60,7 @@ void GaugeRecorder::write(double t, const std::vector<PointState>& states) {
   GaugeRow row;
   row.t = t;
   for (const auto& state : states) {
-    const bool dry = !state.reached || state.depth < dry_depth;
+    const bool dry = !state.reached || (state.thin_is_dry && state.depth < dry_depth);
     row.elevation.push_back(dry ? state.bed : state.bed + state.depth);
     row.dry.push_back(dry);
   }

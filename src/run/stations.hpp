@@ -32,7 +32,6 @@ class GaugeRecorder {
   bool absent() const { return gauges_.empty(); }
 
   std::vector<Gauge> gauges_;
-  std::vector<Point> points_;
   std::string folder_;
   Timetable times_;
   GaugeFile file_;

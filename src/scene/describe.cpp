@@ -115,8 +115,15 @@ std::string sisph_numerics(const Scene& scene) {
          ", " + step;
 }
 
+std::string fpm_numerics(const Scene& scene) {
+  const Fpm& fpm = *scene.fpm;
+  return scene.method + ", support " + brief(fpm.support) + " dx, CFL " + brief(scene.cfl) + ", density " + brief(fpm.density) +
+         " kg/m3, viscosity " + brief(fpm.viscosity) + " m2/s, " + (fpm.slip ? "slip" : "no slip") + " at walls";
+}
+
 std::string numerics(const Scene& scene) {
   if (scene.method == "sisph") return sisph_numerics(scene);
+  if (scene.fpm) return fpm_numerics(scene);
   const Sph& sph = scene.sph;
   std::string out = scene.method + ", " + name_in(kernel_names(), sph.kernel) + " kernel" +
                     (sph.lattice_correction ? " (lattice correction)" : "") + ", h/dx " + brief(sph.eta) + ", CFL " +
@@ -124,8 +131,8 @@ std::string numerics(const Scene& scene) {
   if (sph.stabilisation == Stabilisation::artificial_viscosity)
     out += " a = " + brief(sph.viscosity[0]) + ", b = " + brief(sph.viscosity[1]);
   if (sph.strength != 1) out += " x " + brief(sph.strength);
-  return out + (sph.acceleration == Acceleration::classical ? ", classical acceleration"
-                                                            : ", variational acceleration");
+  if (sph.acceleration == Acceleration::classical) return out + ", classical acceleration";
+  return out + ", variational acceleration" + (sph.steep_is_classical ? " up to slopes of 1.5" : "");
 }
 
 std::string area(const AreaLimit& limit) {
@@ -170,9 +177,13 @@ std::vector<std::string> describe(const Scene& scene) {
   };
   add("scene", scene.name + " (" + scene.file + ")");
   add("domain", extent(scene.domain));
-  add("bed", bed(scene));
-  add("friction", friction(scene.manning));
-  add("water", water(scene));
+  if (scene.fpm) {
+    add("bodies", counted(scene.fpm->bodies.size(), "piece") + " of water, dx " + brief(scene.water.spacing) + " m");
+  } else {
+    add("bed", bed(scene));
+    add("friction", friction(scene.manning));
+    add("water", water(scene));
+  }
   add("walls", counted(scene.walls.size(), "line"));
   for (const OpenBoundary& b : scene.boundaries) add("boundary", boundary(b, scene.domain));
   for (const Gauge& g : scene.gauges) add("gauge", gauge(g, scene.domain));

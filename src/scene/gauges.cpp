@@ -59,9 +59,15 @@ void read_gauge(Table& section, Scene& scene) {
   Gauge gauge;
   gauge.name = section.text("name").required();
   require_new_name(section, scene.gauges, gauge.name);
-  Value<Point> at = section.point("at", scene.domain.dimension);
-  gauge.at = at.required();
-  if (at.optional()) require_inside(section, "at", "the gauge", gauge.at, scene);
+  using What = Gauge::What;
+  if (scene.fpm)
+    gauge.what = section.choice<What>("what", {{"elevation", What::elevation}, {"pressure", What::pressure}, {"front", What::front}})
+                     .otherwise(What::elevation);
+  if (gauge.what != What::front) {
+    Value<Point> at = section.point("at", scene.domain.dimension);
+    gauge.at = at.required();
+    if (at.optional()) require_inside(section, "at", "the gauge", gauge.at, scene);
+  }
   Table measured = section.table("measured");
   if (measured.given()) gauge.measured = read_series(measured, SeriesUse::measured);
   gauge.peak_after = section.number("peak_after", "s").at_least(0).otherwise(gauge.peak_after);

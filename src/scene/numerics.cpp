@@ -8,10 +8,8 @@ namespace freshet::input {
 
 void read_scene_section(Table& section, Scene& scene) {
   scene.name = section.text("name").otherwise(scene.name);
-  Value<std::string> method =
-      section.choice<std::string>("method", {{"sph-swe", "sph-swe"}, {"sisph", "sisph"}, {"fpm", "fpm"}});
-  scene.method = method.otherwise(scene.method);
-  if (scene.method == "fpm") method.fail("the method 'fpm' is not built yet", "use method = \"sph-swe\" or \"sisph\"");
+  scene.method = section.choice<std::string>("method", {{"sph-swe", "sph-swe"}, {"sisph", "sisph"}, {"fpm", "fpm"}})
+                     .otherwise(scene.method);
   scene.gravity = section.number("gravity", "m/s2").positive().otherwise(scene.gravity);
   section.context().gravity = scene.gravity;
 }
@@ -66,8 +64,8 @@ void read_time(Table& section, const ComparePlan& compare, Scene& scene) {
                   .check([](double cfl) { return cfl <= 2; }, "at most 2")
                   .otherwise(scene.cfl);
   Value<double> step = section.number("dt", "s").positive();
-  if (step.given() && scene.method == "sph-swe")
-    step.fail("'time.dt' belongs to the method \"sisph\"; the step of \"sph-swe\" follows from time.cfl", "remove it");
+  if (step.given() && scene.method != "sisph")
+    step.fail("'time.dt' belongs to the method \"sisph\"; the step of \"" + scene.method + "\" follows from time.cfl", "remove it");
   scene.time_step = step.otherwise(scene.time_step);
 }
 

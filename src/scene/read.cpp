@@ -23,14 +23,37 @@ void read_each(Table& root, const std::string& key, Scene& scene, Reader reader)
   }
 }
 
+// As below, for method "fpm".
+void read_fpm_sections(Table& root, Table& head, Scene& scene) {
+  Table domain = root.table("domain"), water = root.table("water"), fluid = root.table("fluid"), fpm = root.table("fpm");
+  Table time = root.table("time"), output = root.table("output"), limits = root.table("limits");
+  scene.cfl = 0.15;                // of the support
+  scene.limits.mass_error = 0.05;  // of the area: points come and go
+  read_domain(domain, scene);
+  if (scene.domain.dimension == 1) head.error("method", "method \"fpm\" needs two dimensions", "domain.box = [x0, y0, x1, y1]");
+  read_spacing(water, scene);
+  read_fluid(fluid, scene);
+  read_fpm(fpm, scene);
+  read_periodic(domain, scene);
+  read_each(root, "wall", scene, read_wall);
+  if (root.size_of("body") == 0) root.error("body", "the scene has no [[body]]: there is no water", "add [[body]] with a box, circle or polygon");
+  read_each(root, "body", scene, read_body);
+  read_each(root, "gauge", scene, read_gauge);
+  read_time(time, {}, scene);
+  read_output(output, scene);
+  read_limits(limits, scene);
+}
+
 // The order in which sections need each other; the file may have them in any order.
 void read_sections(Table& root, Scene& scene) {
-  Table head = root.table("scene"), domain = root.table("domain"), sph = root.table("sph");
+  Table head = root.table("scene");
+  read_scene_section(head, scene);
+  if (scene.method == "fpm") return read_fpm_sections(root, head, scene);
+  Table domain = root.table("domain"), sph = root.table("sph");
   Table water = root.table("water"), bed = root.table("bed"), compare = root.table("compare");
   Table sisph = root.table("sisph"), split = root.table("split"), merge = root.table("merge");
   Table time = root.table("time"), output = root.table("output"), limits = root.table("limits");
   Table raster = root.table("raster");
-  read_scene_section(head, scene);
   read_domain(domain, scene);
   const bool acceleration_named = read_sph(sph, scene);
   read_sisph(sisph, scene);

@@ -84,6 +84,8 @@ struct OpenBoundary {
 struct Gauge {
   std::string name;
   Point at{};
+  // Method "fpm" only, but for elevation: pressure at the point [Pa]; front: the water's largest x [m], wherever it is.
+  enum class What { elevation, pressure, front } what = What::elevation;
   std::optional<Series> measured;  // m, free-surface elevation, times increasing
   double peak_after = 0;           // s, peaks and arrivals are taken after this time
   double arrival_level = 0.01;     // m, first crossing of this elevation counts as arrival
@@ -173,6 +175,30 @@ struct Merge {
   double relax = 3;   // h / c
 };
 
+// The incompressible Finite Pointset Method: a flow in a vertical plane, y upwards.
+enum class PressureScheme { filtered, incremental, plain };  // see kernels/fpm/projection.hpp
+
+struct Body {
+  std::vector<Point> outline;         // m, counter-clockwise, not closed; empty: a circle
+  bool lattice = false;               // the outline is an upright rectangle
+  Point centre{};                     // m, of the circle
+  double radius = 0;
+  std::array<Function, 2> velocity;   // m/s; absent = at rest
+};
+
+struct Fpm {
+  double density = 1000;   // kg/m3
+  double viscosity = 0;    // m2/s, kinematic
+  Point force{0, -9.81};   // m/s2
+  double support = 3.2;    // h0 / dx
+  double hole = 0.9;       // x dx: an empty circle larger than this gets a point
+  PressureScheme scheme = PressureScheme::filtered;
+  bool slip = true;        // walls; false: they also hold the tangential velocity
+  double tolerance = 1e-9;  // of the pressure equation
+  std::array<bool, 2> periodic{};
+  std::vector<Body> bodies;
+};
+
 struct Compare {
   std::shared_ptr<const Exact> exact;
   double threshold = 1e-3;             // m, depth_l1_rel counts where the exact depth is above it
@@ -229,6 +255,7 @@ struct Scene {
   Sisph sisph;
   std::optional<Split> split;
   std::optional<Merge> merge;
+  std::optional<Fpm> fpm;
   Compare compare;
   Output output;
   std::optional<Rasters> rasters;

@@ -46,6 +46,12 @@ void read_output(Table& section, Scene& scene);  // [output]
 void read_rasters(Table& section, Scene& scene);  // [raster]; needs output.every
 void read_limits(Table& section, Scene& scene);  // [limits]
 
+// Method "fpm". [fluid] comes first; read_periodic (domain.periodic) needs [water] and [fpm].
+void read_fluid(Table& section, Scene& scene);
+void read_fpm(Table& section, Scene& scene);
+void read_periodic(Table& domain, Scene& scene);
+void read_body(Table& section, Scene& scene);  // one [[body]]
+
 // A duration: a positive number of seconds or { periods = n } of the exact solution.
 std::optional<double> read_duration(Table& section, const std::string& key, const Scene& scene);
 

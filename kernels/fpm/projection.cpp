@@ -1,0 +1,128 @@
+#include "kernels/fpm/projection.hpp"
+
+namespace freshet::fpm {
+namespace {
+
+KOKKOS_FORCEINLINE_FUNCTION bool is_wall(int kind) { return kind != in_fluid; }
+
+// v* at the points of one cluster.
+template <bool Viscous>
+struct Predict {
+  StencilView<2> stencils;
+  FlowRule rule;
+  Flow flow;
+  Backward time;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int c) const {
+    const Lanes me = stencils.around.clusters(c);
+    Vec<Lane, 2> a = broadcast(rule.force);
+    a += Lane(-1 / rule.density) * stencils.gradient(c, flow.q);
+    if constexpr (Viscous) a += Lane(rule.viscosity) * stencils.laplacian(c, flow.v);
+    me.store(flow.v_star, Lane(time.c0) * me.load(flow.v) + Lane(time.c1) * me.load(flow.v_old) + Lane(time.tau) * a);
+  }
+};
+
+}  // namespace
+
+void advect(const Flow& flow, const Period& period, double dt, double ratio) {
+  Kokkos::parallel_for("fpm::advect", Range(0, flow.points), KOKKOS_LAMBDA(int i) {
+        const Vec<double, 2> v = at(flow.v, i), mean = v + (0.5 * ratio) * (v - at(flow.v_old, i));
+        put(flow.x, i, period.wrap(at(flow.x, i) + dt * mean));
+      });
+}
+
+double fastest(const Flow& flow) {
+  double v2 = 0;
+  Kokkos::parallel_reduce("fpm::fastest", Range(0, flow.points), KOKKOS_LAMBDA(int i, double& most) {
+        most = larger(most, dot(at(flow.v, i), at(flow.v, i)));
+      }, Kokkos::Max<double>(v2));
+  return root(v2);
+}
+
+ProjectionReport Projection::advance(const Neighbourhood<2>& around, const Rows& rows, const Flow& flow, const Backward& time) {
+  ProjectionReport report;
+  {
+    const Region region("fpm::derivatives");
+    report.poor = stencils_.find(around).poor;
+    find_rows(flow);
+    guess_pressure(flow);
+    predict(flow, time);
+    find_sources(flow, time);
+  }
+  {
+    const Region region("fpm::pressure");
+    poisson_.assemble(around, rows, {flow.row, flow.normal});
+    linear::BiCgStabOptions options;
+    options.tolerance = rule_.tolerance;
+    options.floor = 1e-12 * pressure_scale(flow);  // round-off of the pressure itself
+    report.poisson = poisson_.solve({flow.source, flow.flux, flow.value}, flow.phi, options);
+  }
+  correct(flow, time);
+  return report;
+}
+
+// What each point's row of the pressure equation is.
+void Projection::find_rows(const Flow& flow) {
+  const TankView tank = tank_;
+  Kokkos::parallel_for("fpm::find_rows", Range(0, flow.points), KOKKOS_LAMBDA(int i) {
+        const bool wall = is_wall(flow.kind(i));
+        flow.row(i) = flow.surface(i) ? row_value : wall ? row_flux : row_equation;
+        put(flow.normal, i, wall ? tank.normal(flow.side(i), flow.kind(i)) : Vec<double, 2>{});
+      });
+}
+
+void Projection::guess_pressure(const Flow& flow) {
+  const Scheme scheme = rule_.scheme;
+  if (scheme == Scheme::filtered) stencils_.fit(flow.p, flow.q);
+  Kokkos::parallel_for("fpm::guess_pressure", Range(0, flow.points), KOKKOS_LAMBDA(int i) {
+        if (scheme == Scheme::incremental) flow.q(i) = flow.p(i);
+        if (scheme == Scheme::plain || flow.surface(i)) flow.q(i) = 0;
+        flow.value(i) = -flow.q(i);
+        flow.phi(i) = 0;
+      });
+}
+
+void Projection::predict(const Flow& flow, const Backward& time) {
+  const Range clusters(0, stencils_.view().around.clusters.size());
+  if (rule_.viscosity > 0)
+    Kokkos::parallel_for("fpm::predict", clusters, Predict<true>{stencils_.view(), rule_, flow, time});
+  else
+    Kokkos::parallel_for("fpm::predict", clusters, Predict<false>{stencils_.view(), rule_, flow, time});
+  if (rule_.scheme != Scheme::incremental) return;
+  Kokkos::parallel_for("fpm::hold_walls", Range(0, flow.points), KOKKOS_LAMBDA(int i) {
+        if (is_wall(flow.kind(i))) put(flow.v_star, i, Vec<double, 2>{});
+      });
+}
+
+void Projection::find_sources(const Flow& flow, const Backward& time) {
+  const StencilView<2> view = stencils_.view();
+  const double factor = rule_.density / time.tau;
+  Kokkos::parallel_for("fpm::sources", Range(0, view.around.clusters.size()), KOKKOS_LAMBDA(int c) {
+        const Lanes me = view.around.clusters(c);
+        me.store(flow.source, factor * view.divergence(c, flow.v_star));
+        me.store(flow.flux, factor * dot(me.load(flow.normal), me.load(flow.v_star)));
+      });
+}
+
+void Projection::correct(const Flow& flow, const Backward& time) {
+  const StencilView<2> view = stencils_.view();
+  const double factor = time.tau / rule_.density;
+  const bool slip = rule_.slip;
+  Kokkos::parallel_for("fpm::correct", Range(0, view.around.clusters.size()), KOKKOS_LAMBDA(int c) {
+        const Lanes me = view.around.clusters(c);
+        me.store(flow.v_star, me.load(flow.v_star) - Lane(factor) * view.gradient(c, flow.phi));
+      });
+  Kokkos::parallel_for("fpm::new_state", Range(0, flow.points), KOKKOS_LAMBDA(int i) {
+        Vec<double, 2> v = at(flow.v_star, i);
+        const Vec<double, 2> n = at(flow.normal, i);
+        if (is_wall(flow.kind(i))) v = slip && flow.kind(i) == on_wall ? v - dot(v, n) * n : Vec<double, 2>{};
+        put(flow.v_old, i, at(flow.v, i));
+        put(flow.v, i, v);
+        flow.p(i) = flow.surface(i) ? 0.0 : flow.q(i) + flow.phi(i);
+      });
+}
+
+// Root of the sum of squares of q [Pa].
+double Projection::pressure_scale(const Flow& flow) { return root(linear::dot(sums_, flow.points, flow.q, flow.q)); }
+
+}  // namespace freshet::fpm

@@ -1,0 +1,82 @@
+// One incompressible step after the points have moved (thesis 5.1-5.8, corrected): second-order backward differences along the paths,
+// pressure by projection. With r = dt / dt before (0 in the first step), c0 = (1 + r)^2 / (1 + 2 r), c1 = -r^2 / (1 + 2 r),
+// tau = dt (1 + r) / (1 + 2 r):
+//   q = fitted p, 0 on the surface;  v* = c0 v + c1 v_old + tau (-grad q / rho + nu lap v + f)
+//   lap phi = rho div v* / tau;  walls: n . grad phi = rho n . v* / tau;  surface: phi = -q
+//   v = v* - tau grad phi / rho, at walls held;  p = q + phi
+#pragma once
+#include "kernels/fpm/elliptic.hpp"
+#include "kernels/fpm/stencils.hpp"
+#include "kernels/fpm/tank.hpp"
+
+namespace freshet::fpm {
+
+// filtered: as above. incremental: as printed, q = p unfiltered, v* = 0 and n . grad phi = 0 on walls (unstable: kept to show it).
+// plain: q = 0.
+enum class Scheme { filtered, incremental, plain };
+
+struct FlowRule {
+  double density = 1000;      // kg/m3
+  double viscosity = 0;       // m2/s
+  Vec<double, 2> force{};     // m/s2
+  Scheme scheme = Scheme::filtered;
+  bool slip = true;           // walls; false: they hold the tangential velocity too
+  double tolerance = 1e-9;    // of the pressure equation
+};
+
+// A flow's fields; scratch: those below the line.
+struct Flow {
+  VecField<double, 2> x, v, v_old;  // m, m/s
+  Field<double> p;                  // Pa
+  Field<int> kind, side, surface;   // PointKind; of the tank; 1 on the free surface
+  // ----
+  VecField<double, 2> v_star, normal;
+  Field<double> q, phi, source, flux, value;
+  Field<int> row;
+  int points = 0;
+};
+
+// Factors of the backward difference.
+struct Backward {
+  double c0, c1, tau;
+  Backward(double dt, double ratio)
+      : c0((1 + ratio) * (1 + ratio) / (1 + 2 * ratio)), c1(-ratio * ratio / (1 + 2 * ratio)), tau(dt * (1 + ratio) / (1 + 2 * ratio)) {}
+};
+
+struct ProjectionReport {
+  PoissonReport poisson;
+  int poor = 0;  // points whose neighbours do not determine all derivatives
+};
+
+// x += dt (v + r/2 (v - v_old)), to second order where the accelerations of this step are those of the last; wrapped into the period.
+void advect(const Flow& flow, const Period& period, double dt, double ratio);
+
+// The fastest point [m/s].
+double fastest(const Flow& flow);
+
+class Projection {
+ public:
+  Projection(const FlowRule& rule, const TankView& tank) : rule_(rule), tank_(tank) {}
+
+  // The points must be sorted, listed and flagged.
+  ProjectionReport advance(const Neighbourhood<2>& around, const Rows& rows, const Flow& flow, const Backward& time);
+
+  const Stencils<2>& stencils() const { return stencils_; }
+
+ public:  // device lambdas may not live in private members
+  void find_rows(const Flow& flow);
+  void guess_pressure(const Flow& flow);
+  void predict(const Flow& flow, const Backward& time);
+  void find_sources(const Flow& flow, const Backward& time);
+  void correct(const Flow& flow, const Backward& time);
+  double pressure_scale(const Flow& flow);
+
+ private:
+  FlowRule rule_;
+  TankView tank_;
+  Stencils<2> stencils_;
+  Poisson<2> poisson_;
+  OrderedSums sums_;
+};
+
+}  // namespace freshet::fpm

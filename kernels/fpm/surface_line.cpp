@@ -1,0 +1,53 @@
+#include "kernels/fpm/surface_line.hpp"
+
+namespace freshet::fpm {
+namespace {
+
+KOKKOS_INLINE_FUNCTION bool holds_triangle(const PointCell& c, double radius) {
+  bool found = false;
+  for_each_triangle(c, radius, [&](int, int, double, int) { found = true; });
+  return found;
+}
+
+// Highest level of the point's surface edges at the distance `across` to its right, from the point.
+KOKKOS_INLINE_FUNCTION double level_of_edges(const PointCell& c, double radius, double across) {
+  double level = no_water;
+  const double open2 = radius * radius;
+  for (int k = 0; k < c.cell.size; ++k) {
+    const int number = c.cell.edge[k];
+    if (number < 0 || c.around.r2[number] >= 4 * open2) continue;
+    if (c.cell.distance2(k) < open2 && c.cell.distance2(c.cell.after(k)) < open2) continue;
+    const double dx = c.around.x[number], part = dx != 0 ? across / dx : -1;
+    if (part >= 0 && part <= 1) level = larger(level, part * c.around.y[number]);
+  }
+  return level;
+}
+
+}  // namespace
+
+double highest_level(const Cloud& cloud, const Field<int>& surface, int n, double radius, double x) {
+  double highest = no_water;
+  const VecField<double, 2> place = cloud.near.x;
+  const double same = 1e-6 * cloud.spacing;
+  Kokkos::parallel_reduce("fpm::surface_level", Range(0, n), KOKKOS_LAMBDA(int i, double& high) {
+        const double across = x - place.x(i);
+        if (surface(i) == 0 || across * across > 4 * radius * radius) return;
+        const PointCell c = cell_of(cloud, i, radius);
+        if (!holds_triangle(c, radius)) return;
+        const double level = across * across < same * same ? larger(0.0, level_of_edges(c, radius, across)) : level_of_edges(c, radius, across);
+        if (level > no_water) high = larger(high, place.y(i) + level);
+      }, Kokkos::Max<double>(highest));
+  return larger(highest, no_water);  // Kokkos starts from a lower one
+}
+
+double farthest_x(const Cloud& cloud, const Field<int>& surface, int n, double radius) {
+  double farthest = no_water;
+  const VecField<double, 2> place = cloud.near.x;
+  Kokkos::parallel_reduce("fpm::front", Range(0, n), KOKKOS_LAMBDA(int i, double& far) {
+        if (surface(i) == 0 && cloud.kind(i) == in_fluid) return;
+        if (place.x(i) > far && holds_triangle(cell_of(cloud, i, radius), radius)) far = place.x(i);
+      }, Kokkos::Max<double>(farthest));
+  return larger(farthest, no_water);
+}
+
+}  // namespace freshet::fpm

@@ -1,0 +1,29 @@
+// Fields at new places by moving least squares over the points around them (thesis 5.3.3): the fitted value of every carried
+// field, held within half a range beyond the values around it.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "cellgrid/fields.hpp"
+#include "cellgrid/near.hpp"
+#include "kernels/fpm/mls.hpp"
+
+namespace freshet::fpm {
+
+class Transfer {
+ public:
+  // Finds the factors of the places 0 ... count - 1 [m] for points within h [m] of them.
+  void find(const Near& near, const VecField<double, 2>& places, int count, double h);
+
+  // value(k) = the field's fitted value at place k.
+  void apply(const Field<double>& field, const Field<double>& value) const;
+
+ private:
+  Near near_;
+  VecField<double, 2> places_;
+  Kokkos::View<Terms<double, 2>*, Memory> factors_;
+  int count_ = 0;
+  double h_ = 0;
+};
+
+}  // namespace freshet::fpm

@@ -1,0 +1,92 @@
+// BiCGStab with right preconditioning (van der Vorst 1992) for any operator: the residual that it watches is the true one.
+//   p = r + beta (p - omega v), v = A M p, alpha = rho / (r0.v), s = r - alpha v, t = A M s, omega = t.s / t.t, x += M (alpha p + omega s)
+// A breakdown (rho or omega vanish against the residual) starts anew from the residual at hand. Results do not depend on the number of
+// threads; nothing is allocated after the first solve of a size.
+#pragma once
+#include <cmath>
+
+#include "kernels/linear/vectors.hpp"
+
+namespace freshet::linear {
+
+struct BiCgStabOptions {
+  double tolerance = 1e-8;   // of |r| / |b|
+  double floor = 0;          // |r| that is good enough whatever b is
+  int max_iterations = 500;
+};
+
+struct BiCgStabReport {
+  bool converged = false;
+  int iterations = 0;
+  double residual = 0;  // |r| / |b|
+  int restarts = 0;
+};
+
+class BiCgStab {
+ public:
+  // multiply(x, y): y := A x. precondition(r, z): z := M r, r stays. x holds the first guess.
+  template <class Multiply, class Precondition>
+  [[nodiscard]] BiCgStabReport solve(int n, const Multiply& multiply, const Precondition& precondition, const Vector& b, const Vector& x,
+                                     const BiCgStabOptions& options) {
+    for (Vector* v : {&r_, &r0_, &p_, &v_, &t_, &mp_, &ms_}) reserve(*v, "bicgstab", n);
+    multiply(x, r_);
+    const double bb = dot(sums_, n, b, b);
+    double rr = subtract_from(sums_, n, b, r_);
+    const double goal2 = std::fmax(options.tolerance * options.tolerance * bb, options.floor * options.floor);
+    BiCgStabReport report;
+    double rho = 0, alpha = 0, omega = 0;
+    for (bool fresh = true; rr > goal2 && report.iterations < options.max_iterations; ++report.iterations) {
+      const double rho_new = fresh ? restart(n, rr) : dot(sums_, n, r0_, r_);
+      direction(n, fresh ? 0.0 : rho_new / rho * (alpha / omega), omega);
+      rho = rho_new;
+      precondition(p_, mp_);
+      multiply(mp_, v_);
+      alpha = rho / dot(sums_, n, r0_, v_);
+      add(n, -alpha, v_, r_);  // r is s now
+      precondition(r_, ms_);
+      multiply(ms_, t_);
+      const auto ts_tt = dots(sums_, n, t_, r_, t_);
+      omega = ts_tt[1] > 0 ? ts_tt[0] / ts_tt[1] : 0;
+      rr = advance(n, x, alpha, omega);
+      fresh = !(std::abs(rho) > breakdown * rr) || omega == 0;
+      report.restarts += fresh;
+      if (!std::isfinite(rr)) break;
+    }
+    report.converged = rr <= goal2;
+    report.residual = bb > 0 ? std::sqrt(rr / bb) : 0;
+    return report;
+  }
+
+  // Extended lambdas must not be in private functions on devices.
+  double restart(int n, double rr) {
+    const Vector r = r_, r0 = r0_;
+    Kokkos::parallel_for("bicgstab::restart", Range(0, n), KOKKOS_LAMBDA(int i) { r0(i) = r(i); });
+    return rr;
+  }
+
+  // p := r + beta (p - omega v); beta = 0: p := r, whatever p and v held
+  void direction(int n, double beta, double omega) {
+    const Vector r = r_, p = p_, v = v_;
+    Kokkos::parallel_for("bicgstab::direction", Range(0, n), KOKKOS_LAMBDA(int i) {
+          p(i) = beta == 0 ? r(i) : r(i) + beta * (p(i) - omega * v(i));
+        });
+  }
+
+  // x += alpha M p + omega M s, r := s - omega t; returns r . r
+  double advance(int n, const Vector& x, double alpha, double omega) {
+    const Vector r = r_, t = t_, mp = mp_, ms = ms_;
+    return sums_.sum<1>("bicgstab::advance", n, KOKKOS_LAMBDA(int i) {
+      x(i) += alpha * mp(i) + omega * ms(i);
+      r(i) -= omega * t(i);
+      return Kokkos::Array<double, 1>{{r(i) * r(i)}};
+    })[0];
+  }
+
+ private:
+  static constexpr double breakdown = 1e-12;  // of |r|^2
+
+  Vector r_, r0_, p_, v_, t_, mp_, ms_;
+  OrderedSums sums_;
+};
+
+}  // namespace freshet::linear

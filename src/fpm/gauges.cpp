@@ -1,0 +1,54 @@
+// What gauges show: the highest free surface above or below a point, the pressure there, how far the water reaches.
+#include "kernels/fpm/surface_line.hpp"
+#include "src/fpm/solver.hpp"
+
+namespace freshet::fpm {
+namespace {
+
+constexpr double wet_within = 1.0;  // x dx: a place without a point so near is dry
+
+struct Probe {
+  double pressure = 0;  // Pa
+  bool wet = false;
+};
+
+Probe pressure_at(const Cloud& cloud, const Field<double>& p, const Point& at, double support) {
+  const VecField<double, 2> place{Field<double>("fpm.gauge", 1), Field<double>("fpm.gauge", 1)};
+  Kokkos::deep_copy(place.x, at[0]);
+  Kokkos::deep_copy(place.y, at[1]);
+  const Field<double> value("fpm.gauge", 1);
+  Transfer transfer;
+  transfer.find(cloud.near, place, 1, support);
+  transfer.apply(p, value);
+  const Near near = cloud.near;
+  const double reach = wet_within * cloud.spacing;
+  int points = 0;
+  Kokkos::parallel_reduce("fpm::gauge_wet", Range(0, 1),
+      KOKKOS_LAMBDA(int, int& count) { near.for_each({at[0], at[1]}, reach, [&](int, const Vec<double, 2>&, double) { ++count; }); }, points);
+  return {on_host(value)(0), points > 0};
+}
+
+}  // namespace
+
+std::vector<PointState> Solver::gauge(const std::vector<Gauge>& gauges) const {
+  const Cloud cloud = management_.cloud(points_, order_);
+  const Field<int> surface = points_.integer("surface");
+  const double radius = management_.rule().voronoi.surface * scene_.water.spacing;
+  std::vector<PointState> states;
+  for (const Gauge& g : gauges) {
+    PointState state;
+    state.thin_is_dry = false;
+    if (g.what == Gauge::What::pressure) {
+      const Probe probe = pressure_at(cloud, points_.real("p"), g.at, scene_.fpm->support * scene_.water.spacing);
+      state.reached = probe.wet, state.depth = probe.wet ? probe.pressure : 0;
+    } else {
+      const bool front = g.what == Gauge::What::front;
+      const double place = front ? farthest_x(cloud, surface, points_.size(), radius) : highest_level(cloud, surface, points_.size(), radius, g.at[0]);
+      state.reached = place > no_water, state.depth = state.reached ? place : 0;
+    }
+    states.push_back(state);
+  }
+  return states;
+}
+
+}  // namespace freshet::fpm

@@ -1,0 +1,139 @@
+#include "src/fpm/place.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include "src/errors.hpp"
+#include "src/scene/water_region.hpp"
+
+namespace freshet::fpm {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double off_outline = 0.6;  // x dx: lattice points closer than this to a slanting outline are left out
+
+// A number of [-1, 1) that depends on the seed and the counter alone (splitmix64).
+double random_offset(int seed, std::uint64_t counter) {
+  std::uint64_t z = static_cast<std::uint64_t>(seed) * 0x632be59bd9b4e019u + (counter + 1) * 0x9e3779b97f4a7c15u;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1;
+}
+
+struct Node {
+  Point x;
+  bool inside;  // off the outline: may be displaced
+};
+
+// Places along one side of a box: from end to end, or the middles of cells where the box fills a periodic domain.
+struct Ladder {
+  std::vector<double> at;
+  bool ends;
+  Ladder(double low, double high, double spacing, bool periodic) : ends(!periodic) {
+    const int n = std::max(1, static_cast<int>(std::lround((high - low) / spacing)));
+    for (int k = 0; k < n + (ends ? 1 : 0); ++k) at.push_back(low + (high - low) * (k + (ends ? 0.0 : 0.5)) / n);
+  }
+  bool is_end(std::size_t k) const { return ends && (k == 0 || k + 1 == at.size()); }
+};
+
+std::vector<Node> nodes_of_box(const Scene& scene, const Body& body) {
+  const Point low = body.outline[0], high = body.outline[2];
+  const auto ladder = [&](std::size_t axis) {
+    const bool fills = low[axis] <= scene.domain.low[axis] && high[axis] >= scene.domain.high[axis];
+    return Ladder(low[axis], high[axis], scene.water.spacing, scene.fpm->periodic[axis] && fills);
+  };
+  const Ladder x = ladder(0), y = ladder(1);
+  std::vector<Node> nodes;
+  for (std::size_t j = 0; j < y.at.size(); ++j)
+    for (std::size_t i = 0; i < x.at.size(); ++i) nodes.push_back({{x.at[i], y.at[j]}, !x.is_end(i) && !y.is_end(j)});
+  return nodes;
+}
+
+// Rings one spacing apart, the outermost on the circle.
+std::vector<Node> nodes_of_circle(const Body& body, double spacing) {
+  const int rings = std::max(1, static_cast<int>(std::lround(body.radius / spacing)));
+  std::vector<Node> nodes{{body.centre, true}};
+  for (int k = 1; k <= rings; ++k) {
+    const int n = static_cast<int>(std::lround(2 * pi * k));
+    const double r = body.radius * k / rings, turn = 2.399963229728653 * k;  // the golden angle: rings do not line up
+    for (int i = 0; i < n; ++i) {
+      const double a = 2 * pi * i / n + turn;
+      nodes.push_back({{body.centre[0] + r * std::cos(a), body.centre[1] + r * std::sin(a)}, k < rings});
+    }
+  }
+  return nodes;
+}
+
+bool encloses(const std::vector<Point>& polygon, const Point& p) {
+  bool inside = false;
+  for (std::size_t k = 0, l = polygon.size() - 1; k < polygon.size(); l = k++) {
+    const Point &a = polygon[k], &b = polygon[l];
+    if ((a[1] > p[1]) != (b[1] > p[1]) && p[0] < a[0] + (b[0] - a[0]) * (p[1] - a[1]) / (b[1] - a[1])) inside = !inside;
+  }
+  return inside;
+}
+
+double distance_to_outline(const std::vector<Point>& outline, const Point& p) {
+  double least = 1e300;
+  for (std::size_t k = 0; k < outline.size(); ++k) least = std::min(least, distance(p, outline[k], outline[(k + 1) % outline.size()]));
+  return least;
+}
+
+void add_outline(const std::vector<Point>& outline, double spacing, std::vector<Node>& nodes) {
+  for (std::size_t k = 0; k < outline.size(); ++k) {
+    const Point a = outline[k], b = outline[(k + 1) % outline.size()];
+    const int parts = std::max(1, static_cast<int>(std::lround(std::hypot(b[0] - a[0], b[1] - a[1]) / spacing)));
+    for (int i = 0; i < parts; ++i) {
+      const double s = static_cast<double>(i) / parts;
+      nodes.push_back({{a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])}, false});
+    }
+  }
+}
+
+std::vector<Node> nodes_of_polygon(const Scene& scene, const Body& body) {
+  const double dx = scene.water.spacing;
+  std::vector<Node> nodes;
+  add_outline(body.outline, dx, nodes);
+  Point low = body.outline[0], high = low;
+  for (const Point& p : body.outline) {
+    low = {std::min(low[0], p[0]), std::min(low[1], p[1])};
+    high = {std::max(high[0], p[0]), std::max(high[1], p[1])};
+  }
+  for (double y = low[1]; y < high[1]; y += dx)
+    for (double x = low[0]; x < high[0]; x += dx)
+      if (encloses(body.outline, {x, y}) && distance_to_outline(body.outline, {x, y}) > off_outline * dx) nodes.push_back({{x, y}, true});
+  return nodes;
+}
+
+Point velocity_at(const Body& body, const Point& x) {
+  const auto component = [&](const Function& f) { return f ? f(x[0], x[1]) : 0.0; };
+  const Point v{component(body.velocity[0]), component(body.velocity[1])};
+  if (!std::isfinite(v[0] + v[1]))
+    throw SceneError("body.velocity is not a finite number at (" + std::to_string(x[0]) + ", " + std::to_string(x[1]) +
+                     ") m; check its expressions there");
+  return v;
+}
+
+}  // namespace
+
+std::vector<StartPoint> place_points(const Scene& scene) {
+  std::vector<StartPoint> points;
+  std::uint64_t counter = 0;
+  for (const Body& body : scene.fpm->bodies) {
+    const std::vector<Node> nodes = body.radius > 0 ? nodes_of_circle(body, scene.water.spacing)
+                                    : body.lattice  ? nodes_of_box(scene, body)
+                                                    : nodes_of_polygon(scene, body);
+    for (const Node& node : nodes) {
+      const double off = node.inside ? scene.water.disorder * scene.water.spacing : 0;
+      const double dx = off * random_offset(scene.water.seed, counter), dy = off * random_offset(scene.water.seed, counter + 1);
+      counter += 2;
+      const Point x{node.x[0] + dx, node.x[1] + dy};
+      points.push_back({x, velocity_at(body, x)});
+    }
+  }
+  return points;
+}
+
+}  // namespace freshet::fpm

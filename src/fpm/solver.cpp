@@ -1,0 +1,76 @@
+#include "src/fpm/solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/fpm/area.hpp"
+#include "src/errors.hpp"
+
+namespace freshet::fpm {
+
+// Moved points are managed and sorted; lists, cells and stencils are those of the new places.
+void Solver::step(double, double dt) {
+  const double ratio = last_dt_ > 0 ? dt / last_dt_ : 0;
+  advect(bind(), period_, dt, ratio);
+  {
+    const Region region("fpm::points");
+    const PointReport managed = management_.manage(points_, order_, next_id_);
+    counts_.inserted += managed.step.inserted;
+    counts_.merged += managed.step.merged;
+    counts_.removed += managed.step.removed;
+    counts_.landed += managed.step.landed;
+  }
+  const Flow flow = bind();
+  const Neighbourhood<2>& around = finder_.find(order_.rows(), flow.x, points_.real("h"), flow.points, period_);
+  pressure_ = projection_.advance(around, order_.rows(), flow, Backward(dt, ratio)).poisson;
+  if (!pressure_.solve.converged)
+    throw Diverged("the pressure equation was not solved: residual " + std::to_string(pressure_.solve.residual) + " after " +
+                   std::to_string(pressure_.solve.iterations) + " iterations; limit: fpm.tolerance = " +
+                   std::to_string(scene_.fpm->tolerance) + "\n  help: a smaller time.cfl, or look at the start for bodies that overlap");
+  report_.pressure_iterations = pressure_.solve.iterations;
+  last_dt_ = dt;
+}
+
+// (5.24)-(5.26): a point moves by a part of its support, viscosity spreads over one, and from rest.
+double Solver::stable_dt() const {
+  const double h = scene_.fpm->support * scene_.water.spacing, speed = fastest(bind());
+  const double force = std::hypot(scene_.fpm->force[0], scene_.fpm->force[1]);
+  double dt = scene_.end_time;
+  if (speed > 0) dt = std::min(dt, scene_.cfl * h / speed);
+  if (force > 0) dt = std::min(dt, 0.04 * std::sqrt(h / force));
+  if (scene_.fpm->viscosity > 0) dt = std::min(dt, 0.125 * h * h / scene_.fpm->viscosity);
+  return std::isfinite(speed) ? dt : speed;
+}
+
+Mechanics Solver::mechanics() const {
+  const Flow flow = bind();
+  const Field<double> area = cell_areas();
+  const Vec<double, 2> force{scene_.fpm->force[0], scene_.fpm->force[1]};
+  const auto sum = sums_.sum<4>("fpm::mechanics", flow.points, KOKKOS_LAMBDA(int i) {
+    const Vec<double, 2> v = at(flow.v, i);
+    const double a = area(i);
+    return Kokkos::Array<double, 4>{{a * v.x, a * v.y, 0.5 * a * dot(v, v), -a * dot(force, at(flow.x, i))}};
+  });
+  return {{sum[0], sum[1]}, sum[2], sum[3]};
+}
+
+Totals Solver::totals() const {
+  const Field<double> area = cell_areas();
+  Totals totals;
+  totals.mass = sums_.sum<1>("fpm::area", points_.size(), KOKKOS_LAMBDA(int i) { return Kokkos::Array<double, 1>{{area(i)}}; })[0];
+  return totals;
+}
+
+// Each point's part of the triangles between points that are closer together than the surface's empty circle: the parts of all
+// points make up the water's area.
+Field<double> Solver::cell_areas() const {
+  const Cloud cloud = management_.cloud(points_, order_);
+  const int n = points_.size();
+  if (area_.extent_int(0) < n) area_ = Field<double>("fpm.area", static_cast<std::size_t>(n + n / 2));
+  const Field<double> area = area_;
+  const double radius = management_.rule().voronoi.surface * scene_.water.spacing;
+  Kokkos::parallel_for("fpm::cell_areas", Range(0, n), KOKKOS_LAMBDA(int i) { area(i) = wet_area(cell_of(cloud, i, radius), cloud, i, radius); });
+  return area;
+}
+
+}  // namespace freshet::fpm

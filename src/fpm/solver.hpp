@@ -1,0 +1,57 @@
+// Incompressible flow by the Finite Pointset Method (thesis ch. 5, corrected): the recipe of one step.
+#pragma once
+#include "kernels/fpm/points.hpp"
+#include "kernels/fpm/projection.hpp"
+#include "src/method.hpp"
+
+namespace freshet::fpm {
+
+class Solver : public Method {
+ public:
+  explicit Solver(const Scene& scene);
+
+  std::string name() const override { return "fpm"; }
+  int dimension() const override { return 2; }
+  double stable_dt() const override;
+  void step(double t, double dt) override;
+  FieldSet& fields() override { return points_; }
+  const FieldSet& fields() const override { return points_; }
+  const Rows& rows() const override { return order_.rows(); }
+  Totals totals() const override;
+  Mechanics mechanics() const override;
+  StepReport report() const override { return report_; }
+  std::vector<std::string> features() const override;
+  std::vector<PointState> gauge(const std::vector<Gauge>& gauges) const override;
+  ScalarState scalars() const override;
+  void restore(const ScalarState& scalars) override;
+
+  const PoissonReport& pressure_report() const { return pressure_; }
+  const PointCount& counts() const { return counts_; }  // since t = 0
+
+ private:
+  void make_fields();
+  void place();
+  Flow bind() const;
+  Field<double> cell_areas() const;  // m2, of each point
+
+  Scene scene_;
+  FieldSet points_;
+  RowOrder order_;
+  Period period_;
+  Tank tank_;
+  Points management_;
+  NeighbourFinder<2> finder_;
+  Projection projection_;
+  StepReport report_;
+  PoissonReport pressure_;
+  PointCount counts_;
+  mutable OrderedSums sums_;
+  mutable Field<double> area_;
+  double last_dt_ = 0;  // s, 0 before the first step
+  int next_id_ = 0;
+
+ public:  // device lambdas may not live in private members
+  void seat_on_walls();
+};
+
+}  // namespace freshet::fpm
