@@ -32,7 +32,7 @@ struct AssembleRows {
 
   KOKKOS_INLINE_FUNCTION void operator()(int c) const {
     const Lanes me = around.clusters(c);
-    const Lane has_flux = where(me, equation_and_flux), free = has_flux + where(me, equation), h = me.load(around.h);
+    const Lane has_flux = where(me, row_flux), free = has_flux + where(me, row_equation), h = me.load(around.h);
     Moments<Lane, D> moments;
     around.for_each(c, [&](int, const Terms<Lane, D>& m, const Lane& w) { moments.add(w, m); });
     const Terms<Lane, D> r_p = laplace_row<Lane, D>(), r_b = flux_row(has_flux * me.load(places.normal));
@@ -44,8 +44,7 @@ struct AssembleRows {
     me.store(per_flux, equation_weight * h * dot(r_b, beta));
     int k = 0;
     around.for_each(c, [&](int, const Terms<Lane, D>& m, const Lane& w) {
-      const Lane entry = -w * dot(m, beta);
-      __builtin_memcpy(&matrix.a(c, k++, 0), &entry, sizeof entry);
+      matrix.set(c, k++, -w * dot(m, beta));
     });
   }
 };
@@ -60,8 +59,10 @@ void Poisson<D>::reserve() {
   if (free_.extent_int(0) < n) free_ = Field<int>("fpm.free", static_cast<size_t>(n + n / 2));
   if (matrix_.a.extent_int(0) >= clusters && matrix_.a.extent_int(1) >= longest) return;
   matrix_.a = {};
-  matrix_.a = decltype(matrix_.a)(Kokkos::ViewAllocateWithoutInitializing("fpm.matrix"), static_cast<size_t>(clusters + clusters / 4),
-                                  static_cast<size_t>(longest), static_cast<size_t>(lanes));
+  matrix_.single = {};
+  const size_t room = static_cast<size_t>(clusters + clusters / 4), width = static_cast<size_t>(longest), w = static_cast<size_t>(lanes);
+  matrix_.a = decltype(matrix_.a)(Kokkos::ViewAllocateWithoutInitializing("fpm.matrix"), room, width, w);
+  matrix_.single = decltype(matrix_.single)(Kokkos::ViewAllocateWithoutInitializing("fpm.matrix_single"), room, width, w);
 }
 
 template <int D>
@@ -77,7 +78,7 @@ void Poisson<D>::assemble(const Neighbourhood<D>& around, const Rows& rows, cons
   const Field<double> h = around.h;
   double reach = 0;
   Kokkos::parallel_reduce("fpm::unknowns", Range(0, around.points), KOKKOS_LAMBDA(int i, int& unknown, double& longest) {
-        free(i) = row(i) != value;
+        free(i) = row(i) != row_value;
         unknown += free(i);
         longest = larger(longest, h(i));
       }, unknowns_, Kokkos::Max<double>(reach));
@@ -101,9 +102,9 @@ void Poisson<D>::set_right_side(const PoissonData& data, const Field<double>& ps
   const Field<int> row = places_.row;
   const PoissonData d = data;
   Kokkos::parallel_for("fpm::right_side", Range(0, matrix_.rows), KOKKOS_LAMBDA(int i) {
-        if (row(i) == value) psi(i) = d.value(i);
-        const double flux = row(i) == equation_and_flux ? per_flux(i) * d.flux(i) : 0.0;
-        b(i) = row(i) == value ? psi(i) : per_source(i) * d.source(i) + flux;
+        if (row(i) == row_value) psi(i) = d.value(i);
+        const double flux = row(i) == row_flux ? per_flux(i) * d.flux(i) : 0.0;
+        b(i) = row(i) == row_value ? psi(i) : per_source(i) * d.source(i) + flux;
       });
 }
 

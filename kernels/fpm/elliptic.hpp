@@ -12,7 +12,7 @@
 namespace freshet::fpm {
 
 // What is known at a point.
-enum PoissonRow : int { equation = 0, equation_and_flux = 1, value = 2 };
+enum PoissonRow : int { row_equation = 0, row_flux = 1, row_value = 2 };  // flux: beside the equation
 
 template <int D>
 struct PoissonPlaces {

@@ -34,7 +34,7 @@ KOKKOS_FORCEINLINE_FUNCTION constexpr bool is_pure_second(int term) {
   return D == 1 ? term == 2 : D == 2 ? term == 3 || term == 5 : term == 4 || term == 6 || term == 9;
 }
 
-// exp(-6.25 s) for s = R^2 < 1, else 0; relative error 1e-14. (exp(-t/64))^64 by its series.
+// exp(-6.25 s) for s = R^2 < 1, else 0; relative error 2e-13. (exp(-t/64))^64 by its series.
 template <class V>
 KOKKOS_FORCEINLINE_FUNCTION V weight(const V& s) {
   const V t = (-6.25 / 64) * smaller(s, V(1.0));

@@ -66,7 +66,7 @@ void Projection::find_rows(const Flow& flow) {
   const TankView tank = tank_;
   Kokkos::parallel_for("fpm::find_rows", Range(0, flow.points), KOKKOS_LAMBDA(int i) {
         const bool wall = is_wall(flow.kind(i));
-        flow.row(i) = flow.surface(i) ? value : wall ? equation_and_flux : equation;
+        flow.row(i) = flow.surface(i) ? row_value : wall ? row_flux : row_equation;
         put(flow.normal, i, wall ? tank.normal(flow.side(i), flow.kind(i)) : Vec<double, 2>{});
       });
 }

@@ -35,7 +35,8 @@ struct Searcher {
     if (rule.area > 0) {
       const double area = 0.5 * (da.x * db.y - da.y * db.x);
       l.offer(Missing::in_bulk, area / (rule.area * cloud.spacing * cloud.spacing), (1.0 / 3) * (da + db));
-    } else {
+    } else if (dot(da, db) > 0 && dot(da, da - db) > 0 && dot(db, db - da) > 0) {
+      // Only where it holds its own circumcentre is that the middle of a hole; of others it may lie outside the water.
       l.offer(Missing::in_bulk, root(r2) / (rule.hole * cloud.spacing), l.corner(k));
     }
   }

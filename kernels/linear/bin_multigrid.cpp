@@ -2,31 +2,35 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace freshet::linear {
 namespace {
 
-void grow(Field<int>& field, const char* label, int n) {
+void grow(Field<int>& field, const std::string& label, int n) {
   if (field.extent_int(0) < n) field = Field<int>(label, static_cast<size_t>(n + n / 2 + 16));
 }
 // Zero-filled, with room for a last partial block.
-void grow(Vector& field, const char* label, int n) {
+void grow(Vector& field, const std::string& label, int n) {
   if (field.extent_int(0) < n + lanes) field = Vector(label, static_cast<size_t>(n + n / 2 + 16 + lanes));
 }
 template <class View>
-void grow(View& table, const char* label, int n, int width) {
+void grow(View& table, const std::string& label, int n, int width) {
   if (table.extent_int(0) >= n + lanes && table.extent_int(1) >= width) return;
   table = View(label, static_cast<size_t>(n + n / 2 + 16 + lanes), static_cast<size_t>(width));
 }
 
 int halved(int n) { return (n + 1) / 2; }
 
+// Bins that an entry reaches on the next level; of an odd number of bins round a period the last one stays half a bin.
+int halved_reach(int reach, int bins, bool wrap) { return (reach + 1 + (wrap && bins % 2 == 1)) / 2; }
+
 // The points' matrix with the words of BinLevel.
 struct Points {
   ClusterMatrix m;
   int blocks() const { return m.clusters.size(); }
   KOKKOS_FORCEINLINE_FUNCTION Lanes block(int c) const { return m.clusters(c); }
-  KOKKOS_FORCEINLINE_FUNCTION Lane times(int c, const Vector& v) const { return m.clusters(c).load(v) + m.off_diagonal(c, v); }
+  KOKKOS_FORCEINLINE_FUNCTION Lane times(int c, const Vector& v) const { return m.clusters(c).load(v) + m.off_diagonal_rough(c, v); }
   KOKKOS_FORCEINLINE_FUNCTION Lane per_diagonal(int) const { return 1.0; }
 };
 
@@ -189,8 +193,8 @@ void BinMultigrid::build(const ClusterMatrix& matrix, const Field<int>& free, co
   BinLevel& first = levels_.front();
   first.nx = (rows_.bins - 1) / bins_ + 1;
   first.ny = rows_.rows;
-  first.rx = static_cast<int>(std::ceil(grid.reach / (bins_ * rows_.bin_width)));
-  first.ry = static_cast<int>(std::ceil(grid.reach / rows_.row_height));
+  first.rx = static_cast<int>(std::ceil(grid.reach / (bins_ * rows_.bin_width))) + grid.wrap_x;  // the last bin round a period
+  first.ry = static_cast<int>(std::ceil(grid.reach / rows_.row_height)) + grid.wrap_y;            // may be narrow
   first.wrap_x = grid.wrap_x;
   first.wrap_y = grid.wrap_y;
   sum_points(first);
@@ -238,8 +242,8 @@ void BinMultigrid::sum_points(BinLevel& level) {
 void BinMultigrid::sum_bins(const BinLevel& fine, BinLevel& coarse) {
   coarse.nx = halved(fine.nx);
   coarse.ny = halved(fine.ny);
-  coarse.rx = halved(fine.rx);
-  coarse.ry = halved(fine.ry);
+  coarse.rx = halved_reach(fine.rx, fine.nx, fine.wrap_x);
+  coarse.ry = halved_reach(fine.ry, fine.ny, fine.wrap_y);
   coarse.wrap_x = fine.wrap_x;
   coarse.wrap_y = fine.wrap_y;
   grow(coarse.number, "multigrid.number", coarse.nx * coarse.ny);
@@ -285,7 +289,7 @@ void BinMultigrid::invert_last(bool singular) {
 void BinMultigrid::operator()(const Vector& r, const Vector& z) {
   const Region region("multigrid::cycle");
   const Points points{matrix_};
-  Vector x = z, y = y_;
+  Vector x = y_, y = z;  // an odd number of sweeps ends in z
   smooth_from_zero(points, r, x, y, options_);
   find_residual(points, r, x, y);
   const BinLevel& first = levels_.front();
@@ -300,7 +304,6 @@ void BinMultigrid::operator()(const Vector& r, const Vector& z) {
   cycle(0);
   add_coarse(matrix_.rows, parent_, options_.over_correction, first.x, x);
   for (int s = 0; s < options_.sweeps; ++s, std::swap(x, y)) smooth(points, r, x, y, options_.damping);
-  if (x.data() != z.data()) Kokkos::deep_copy(Kokkos::subview(z, std::make_pair(0, matrix_.rows)), Kokkos::subview(x, std::make_pair(0, matrix_.rows)));
 }
 
 // level.x := one cycle on level.b.

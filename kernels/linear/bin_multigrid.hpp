@@ -90,7 +90,7 @@ class BinMultigrid {
 
   int levels() const { return depth_; }
 
- private:
+ public:  // device lambdas may not live in private members
   void find_clusters();
   void number_bins(BinLevel& level);
   void sum_points(BinLevel& level);
@@ -98,6 +98,7 @@ class BinMultigrid {
   void invert_last(bool singular);
   void cycle(int depth);
 
+ private:
   MultigridOptions options_;
   ClusterMatrix matrix_;
   Field<int> free_, cluster_, parent_;  // of a point: its cluster, its unknown on the first level or -1

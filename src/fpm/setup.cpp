@@ -25,6 +25,7 @@ PointRule point_rule(const Scene& scene) {
   rule.spacing = scene.water.spacing;
   rule.support = scene.fpm->support * scene.water.spacing;
   rule.slip = scene.fpm->slip;
+  rule.voronoi.hole = scene.fpm->hole;
   return rule;
 }
 

@@ -55,6 +55,7 @@ void read_fluid(Table& section, Scene& scene) {
 void read_fpm(Table& section, Scene& scene) {
   Fpm& fpm = *scene.fpm;
   fpm.support = section.number("support").within(2.2, 6).otherwise(fpm.support);
+  fpm.hole = section.number("hole").within(0.75, 1.25).otherwise(fpm.hole);
   fpm.scheme = section.choice<PressureScheme>("scheme", {{"filtered", PressureScheme::filtered},
                                                          {"incremental", PressureScheme::incremental},
                                                          {"plain", PressureScheme::plain}})

@@ -49,7 +49,7 @@ struct Square {
       const double a = x(i) / size, b = y(i) / size;
       const bool left = a == 0, right = a > 1 - 1e-9, bottom = b == 0, top = b > 1 - 1e-9;
       const bool given = edges == Edges::mixed && (left || top), edge = edges != Edges::periodic && (left || right || bottom || top);
-      row(i) = given ? value : edge ? equation_and_flux : equation;
+      row(i) = given ? row_value : edge ? row_flux : row_equation;
       const double nx = right - left, ny = top - bottom, length = std::max(std::hypot(nx, ny), 1e-300);
       normal.x(i) = nx / length;
       normal.y(i) = ny / length;
