@@ -14,8 +14,8 @@ const NamedField<T>* find(const std::vector<NamedField<T>>& fields, const std::s
 std::vector<int> fluid_indices(const FieldSet& fields) {
   std::vector<int> indices;
   indices.reserve(static_cast<std::size_t>(fields.size()));
-  // Wall points of a method without particle masses are water like any other.
-  const auto* kind = find_real(fields, "mass") ? find_integer(fields, "kind") : nullptr;
+  // Wall points of a method without depths are water like any other.
+  const auto* kind = find_real(fields, "depth") ? find_integer(fields, "kind") : nullptr;
   decltype(on_host(Field<int>())) kinds;
   if (kind) kinds = on_host(kind->data);
   for (int i = 0; i < fields.size(); ++i) {

@@ -5,18 +5,18 @@
 
 namespace freshet {
 
-struct Column {
+struct WaterColumn {
   double length = 1, height = 1;  // m
   double gravity = 9.81;          // m/s2
 };
 
 // m/s2, along x, of the face at 0 < y <= height.
-double face_acceleration(const Column& column, double y);
+double face_acceleration(const WaterColumn& column, double y);
 
 // m/s2, along y, of the top at -length <= x <= 0.
-double top_acceleration(const Column& column, double x);
+double top_acceleration(const WaterColumn& column, double x);
 
 // Pa per kg/m3: pressure / density inside.
-double column_pressure(const Column& column, double x, double y);
+double column_pressure(const WaterColumn& column, double x, double y);
 
 }  // namespace freshet

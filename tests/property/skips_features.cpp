@@ -171,7 +171,9 @@ TEST_CASE("skips: the run loop looks at every particle once; recorders that the 
   CHECK(bare.labels == expected);
 
   Scene scene = drop();
-  scene.gauges = {{"g", {0.1, 0}, {}, 0, 0.01}};
+  Gauge gauge;
+  gauge.name = "g", gauge.at = {0.1, 0};
+  scene.gauges = {gauge};
   scene.run_ups = {{"r", {0.3, 0}, 0.1, 0.002, {}}};
   Transect line;
   line.name = "line", line.line = {{{-0.5, 0}, {0.5, 0}}}, line.time = 1e6, line.spacing = 0.1;

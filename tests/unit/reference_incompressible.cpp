@@ -35,7 +35,7 @@ TEST_CASE("reference drop: area, energy and units") {
 
 // One-sided second-order differences of the pressure, which is 0 on the free sides; e^2 / 3 x the third derivative is about 1e-5 g.
 TEST_CASE("reference column: accelerations are those of its pressure") {
-  for (const Column& c : {Column{1, 1, 9.81}, Column{0.5, 2, 1}, Column{30, 1, 9.81}}) {
+  for (const WaterColumn& c : {WaterColumn{1, 1, 9.81}, WaterColumn{0.5, 2, 1}, WaterColumn{30, 1, 9.81}}) {
     const double e = 1e-3 * c.height;
     for (const double part : {0.3, 0.6, 0.9}) {
       const double y = part * c.height, x = -part * c.length;
@@ -48,7 +48,7 @@ TEST_CASE("reference column: accelerations are those of its pressure") {
 }
 
 TEST_CASE("reference column: falls freely at the corner, rests far inside") {
-  const Column c{40, 1, 9.81};
+  const WaterColumn c{40, 1, 9.81};
   CHECK(top_acceleration(c, 0) == Approx(-9.81));
   CHECK(top_acceleration(c, -20) == Approx(0).margin(1e-9));
   CHECK(face_acceleration(c, 1) == Approx(0).margin(1e-9));
