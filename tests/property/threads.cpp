@@ -156,14 +156,13 @@ TEST_CASE("threads: one and two give the same bytes: splitting and merging") {
   check_threads({"cases/dam_break_dry_strip.toml", "time.end=15", "split.area=1.5", "merge.area=0.35"});
 }
 
-<<<<<<< HEAD
 TEST_CASE("threads: one and two give the same bytes: semi-implicit") {
   check_threads({"cases/sisph_bump.toml", "water.disorder=0.2", "time.end=0.03"});
   check_threads({"cases/thacker.toml", "scene.method=sisph", "water.spacing=150", "time.end=300"});
-=======
+}
+
 TEST_CASE("threads: one and two give the same bytes: incompressible dam break") {
   check_threads({"cases/fpm_martin_moyce.toml", "water.spacing=0.004", "time.end=0.05"});
->>>>>>> h-fpm
 }
 
 TEST_CASE("threads: one and two give the same bytes: open channel") {
