@@ -24,11 +24,11 @@ class FlowRun {
   // With steps that end on the scene's output times and at t.
   void run_to(double t) {
     while (clock.t < t) {
+      while (events_.outputs.due(clock.t)) events_.outputs.advance();
       const Stride stride = events_.shorten(clock, solver.stable_dt(), t);
       solver.step(clock.t, stride.dt);
       clock = {stride.until, clock.step + 1};
       most_iterations = std::max(most_iterations, solver.pressure_report().solve.iterations);
-      while (events_.outputs.due(clock.t)) events_.outputs.advance();
     }
   }
 
