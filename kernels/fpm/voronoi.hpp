@@ -78,7 +78,8 @@ KOKKOS_INLINE_FUNCTION void cut_neighbours(PointCell& c) {
 KOKKOS_INLINE_FUNCTION PointCell cell_of(const Cloud& cloud, int i, double half) {
   const Vec<double, 2> p = at(cloud.near.x, i);
   const double close = smaller(0.95 * cloud.spacing, half);
-  for (const double reach : {close, half}) {
+  const double reaches[] = {close, half};
+  for (const double reach : reaches) {
     PointCell c(half);
     cut_walls(c.cell, cloud.tank, p, half);
     cloud.near.for_each(p, 2 * reach, [&](int j, const Vec<double, 2>& d, double r2) {

@@ -5,9 +5,7 @@
 #pragma once
 #include <vector>
 
-#include "cellgrid/order.hpp"
-#include "kernels/linear/cluster_matrix.hpp"
-#include "kernels/linear/vectors.hpp"
+#include "kernels/linear/bin_levels.hpp"
 
 namespace freshet::linear {
 
@@ -16,60 +14,6 @@ struct MultigridOptions {
   int sweeps = 2;                // before and after the coarse correction
   double over_correction = 1.6;
   int coarsest = 64;             // unknowns at most on the level that is inverted
-};
-
-// One level: the bins that hold unknowns, numbered along rows of bins.
-struct BinLevel {
-  int nx = 1, ny = 1;            // bins in the grid
-  int rx = 1, ry = 1;            // bins that an entry reaches, along x and y
-  bool wrap_x = false, wrap_y = false;
-  int size = 0;                  // unknowns
-  Field<int> number;             // of bin [y * nx + x], -1 without unknowns
-  Field<int> bin;                // of an unknown
-  Field<int> parent;             // of an unknown: its number on the next level
-  Field<double> weight;          // unknowns of the matrix in it
-  Kokkos::View<double**, Kokkos::LayoutLeft, Memory> a;  // [unknown][slot], slot = (dy + ry) (2 rx + 1) + dx + rx
-  Kokkos::View<int**, Kokkos::LayoutLeft, Memory> column;
-  Vector inverse_diagonal;
-  Vector b, x, y;                // of the cycle
-
-  KOKKOS_FORCEINLINE_FUNCTION int width() const { return (2 * rx + 1) * (2 * ry + 1); }
-  KOKKOS_FORCEINLINE_FUNCTION int centre() const { return width() / 2; }
-
-  // The shortest way between two bins of a round of `count`.
-  static KOKKOS_FORCEINLINE_FUNCTION int shortest(int d, int count) {
-    if (2 * d > count) return d - count;
-    return 2 * d <= -count ? d + count : d;
-  }
-  KOKKOS_FORCEINLINE_FUNCTION int slot(int from, int to) const {
-    int dx = to % nx - from % nx, dy = to / nx - from / nx;
-    if (wrap_x) dx = shortest(dx, nx);
-    if (wrap_y) dy = shortest(dy, ny);
-    return (dy + ry) * (2 * rx + 1) + dx + rx;
-  }
-  // The unknown in a slot of a bin's row, -1 if there is none.
-  KOKKOS_FORCEINLINE_FUNCTION int unknown(int from, int s) const {
-    int px = from % nx + s % (2 * rx + 1) - rx, py = from / nx + s / (2 * rx + 1) - ry;
-    if (wrap_x) px = (px + nx) % nx;
-    if (wrap_y) py = (py + ny) % ny;
-    return px < 0 || px >= nx || py < 0 || py >= ny ? -1 : number(py * nx + px);
-  }
-
-  // As a matrix of rows in blocks of lanes; see ClusterMatrix.
-  KOKKOS_FORCEINLINE_FUNCTION int blocks() const { return (size + lanes - 1) / lanes; }
-  KOKKOS_FORCEINLINE_FUNCTION Lanes block(int c) const { return {c * lanes, smaller(lanes, size - c * lanes)}; }
-  KOKKOS_FORCEINLINE_FUNCTION Lane times(int c, const Vector& v) const {
-    Lane sum{0.0};
-    for (int s = 0; s < width(); ++s) {
-      Lane entry;
-      LaneIndex j;
-      __builtin_memcpy(&entry, &a(c * lanes, s), sizeof entry);
-      __builtin_memcpy(&j, &column(c * lanes, s), sizeof j);
-      sum += entry * gather(v.data(), j);
-    }
-    return sum;
-  }
-  KOKKOS_FORCEINLINE_FUNCTION Lane per_diagonal(int c) const { return block(c).load(inverse_diagonal); }
 };
 
 class BinMultigrid {
