@@ -15,7 +15,7 @@ struct Errors {
 // The first step from rest makes v = dt a, whatever dt is.
 Errors errors_at(double spacing) {
   test::FlowRun run("fpm_column", {"water.spacing=" + std::to_string(spacing)});
-  const WaterColumn column{1, 1, 9.81};
+  const WaterColumn column{2.5, 1, 9.81};
   const double dt = 1e-4;
   run.solver.step(0, dt);
   Errors e;
