@@ -43,7 +43,8 @@ struct StepReport {
   int newton_max = 0;
   long rebuilds = 0;          // neighbour lists made again because h outgrew the margin, since t = 0
   int capped = 0, floored = 0;  // particles whose h sits at its bounds
-  long solves = 0, iterations = 0, unsettled = 0;  // implicit: linear solves, their iterations, passes that reached the cap, since t = 0
+  // Implicit methods, since t = 0: passes for the surface, linear solves in them, iterations of those, passes that did not settle.
+  long passes = 0, solves = 0, iterations = 0, unsettled = 0;
   int pressure_iterations = 0;  // of the incompressible methods
 };
 

@@ -11,7 +11,8 @@ KOKKOS_FORCEINLINE_FUNCTION double sum_of(const Lanes& me, Lane a) {
   return total;
 }
 
-// a, f, b, the row sums and the residual of the iterate; returns the slice's parts of |r|^2 and |b|^2.
+// a, f, b, the row sums, the residual of the iterate and the share of its outflow f that a particle has water for; returns the
+// slice's parts of |r|^2 and |b|^2, and how many of its particles would give more than they have.
 template <int D, bool drying>
 struct Coefficients {
   Geometry<D> g;
@@ -19,7 +20,7 @@ struct Coefficients {
   Water<D> water;
   VecField<double, D> before;
   Field<double> last_depth, level;                 // of the Picard pass before
-  Field<double> a, flux, right, residual, row_sum;  // written
+  Field<double> a, flux, right, residual, row_sum, share;  // written
   double stiffness, dt;                            // g theta^2 dt^2
 
   KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, D> pair_velocity(const Vec<Lane, D>& vi, const Vec<Lane, D>& vj, Lane hi, Lane hj) const {
@@ -28,12 +29,12 @@ struct Coefficients {
     return (hi * per) * vi + (hj * per) * vj;
   }
 
-  KOKKOS_FUNCTION Kokkos::Array<double, 2> operator()(int k) const {
+  KOKKOS_FUNCTION Kokkos::Array<double, 3> operator()(int k) const {
     const int s = active(k);
     const Lanes me = g.pairs(s);
     const Vec<Lane, D> vi = me.load(before);
     const Lane hi = me.load(water.depth), li = larger(me.load(last_depth), Lane(0.0)), bi = me.load(water.bed), eta = me.load(level);
-    Lane outflow(0.0), sum_a(0.0), drawn(0.0);
+    Lane outflow(0.0), given(0.0), sum_a(0.0), drawn(0.0);
     g.pairs.for_each(s, [&](int e, LaneIndex j) {
       const Lane hj = gather(water.depth.data(), j), lj = larger(gather(last_depth.data(), j), Lane(0.0));
       const Lane bj = drying ? gather(water.bed.data(), j) : Lane(0.0);
@@ -44,13 +45,42 @@ struct Coefficients {
       PairView::store(flux, e, f);
       PairView::store(a, e, aij);
       outflow += f;
+      given += larger(f, Lane(0.0));
       sum_a += aij;
       drawn += aij * (gather(level.data(), j) - eta);
     });
     const Lane omega = me.load(g.omega), free = free_lanes(g, me);
-    const Lane b = omega * hi - dt * outflow, r = free * (b + drawn - omega * larger(eta - bi, Lane(0.0)));
+    const Lane has = omega * hi, wanted = dt * given, overdrawn = select(has < free * wanted, Lane(1.0), Lane(0.0));
+    const Lane b = has - dt * outflow, r = free * (b + drawn - omega * larger(eta - bi, Lane(0.0)));
     me.store(right, b);
     me.store(row_sum, sum_a);
+    me.store(residual, r);
+    me.store(share, select(Lane(0.5) < overdrawn, has / (wanted + 1e-300), Lane(1.0)));
+    return {{sum_of(me, r * r), sum_of(me, free * b * b), sum_of(me, overdrawn)}};
+  }
+};
+
+// Scales f by the donor's share, so that b >= 0: else a film that runs off has to be held by a surface far below the bed, which
+// costs CG and Newton many iterations. Returns the slice's parts of |r|^2 and |b|^2.
+template <int D>
+struct LimitOutflow {
+  Geometry<D> g;
+  SliceList active;
+  Field<double> depth, share, flux, right, residual;
+  double dt;
+
+  KOKKOS_FUNCTION Kokkos::Array<double, 2> operator()(int k) const {
+    const int s = active(k);
+    const Lanes me = g.pairs(s);
+    const Lane mine = me.load(share), free = free_lanes(g, me);
+    Lane outflow(0.0);
+    g.pairs.for_each(s, [&](int e, LaneIndex j) {
+      const Lane f = PairView::load(flux, e), limited = f * select(Lane(0.0) < f, mine, gather(share.data(), j));
+      PairView::store(flux, e, limited);
+      outflow += limited;
+    });
+    const Lane b = me.load(g.omega) * me.load(depth) - dt * outflow, r = me.load(residual) + free * (b - me.load(right));
+    me.store(right, b);
     me.store(residual, r);
     return {{sum_of(me, r * r), sum_of(me, free * b * b)}};
   }
@@ -101,14 +131,14 @@ FreeSurface<D>::FreeSurface(const Geometry<D>& g, const SurfaceOptions& options)
   const size_t pair_values = g.pairs.j.extent(0);
   a_ = Field<double>("sisph.a", pair_values);
   flux_ = Field<double>("sisph.flux", pair_values);
-  for (Field<double>* f : {&level_, &depth_, &right_, &residual_, &change_, &row_sum_, &diagonal_, &inverse_})
+  for (Field<double>* f : {&level_, &depth_, &right_, &residual_, &change_, &row_sum_, &diagonal_, &inverse_, &share_})
     *f = Field<double>("sisph.surface", static_cast<size_t>(g.pairs.particles) + lanes);
   cg_.resize(g.pairs.particles);
 }
 
 template <int D>
 void FreeSurface<D>::start(const Water<D>& water) {
-  const Field<double> level = level_, depth = depth_, residual = residual_, inverse = inverse_;
+  const Field<double> level = level_, depth = depth_, residual = residual_, inverse = inverse_, share = share_;
   const Water<D> w = water;
   first_ = true;
   Kokkos::parallel_for("sisph::start_surface", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) {
@@ -116,6 +146,7 @@ void FreeSurface<D>::start(const Water<D>& water) {
         level(i) = w.bed(i) + w.depth(i);
         residual(i) = 0;
         inverse(i) = 0;
+        share(i) = 1;
       });
 }
 
@@ -124,9 +155,12 @@ template <bool drying>
 typename FreeSurface<D>::Norms FreeSurface<D>::find_coefficients(const SliceList& active, const Water<D>& water,
                                                                  const VecField<double, D>& before, double dt) {
   const Coefficients<D, drying> pass{g_, active, water, before, depth_, level_, a_, flux_, right_, residual_, row_sum_,
-                                     options_.gravity * options_.theta * options_.theta * dt * dt, dt};
-  const auto sums = sums_.sum<2>("sisph::coefficients", active.count, pass);
-  return {std::sqrt(sums[0]), std::sqrt(sums[1])};
+                                     share_, options_.gravity * options_.theta * options_.theta * dt * dt, dt};
+  const auto sums = sums_.sum<3>("sisph::coefficients", active.count, pass);
+  if (!drying || sums[2] == 0) return {std::sqrt(sums[0]), std::sqrt(sums[1])};
+  const auto limited = sums_.sum<2>("sisph::limit_outflow", active.count,
+                                    LimitOutflow<D>{g_, active, water.depth, share_, flux_, right_, residual_, dt});
+  return {std::sqrt(limited[0]), std::sqrt(limited[1])};
 }
 
 template <int D>

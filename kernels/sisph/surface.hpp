@@ -1,7 +1,7 @@
 // The free surface of one Picard pass (SISPH formulation E, sections 3 and 5 of the method's notes):
 //   V(eta_i) + sum_j a_ij (eta_i - eta_j) = b_i,   V(eta) = omega max(0, eta - bed)                       (Casulli 2009)
 //   a_ij = g theta^2 dt^2 A_ij H_ij / d_ij,  f_ij = A_ij H_ij v_ij . n_ij,  b_i = omega H_i^n - dt sum_j f_ij
-// solved for increments by Newton's method, all particles wet in its first solve, with Jacobi CG inside. The depth follows
+// where some f may be cut so that no particle gives more than it has (b >= 0); solved for increments by Newton's method, all particles wet in its first solve, with Jacobi CG inside. The depth follows
 // from the fluxes F_ij = f_ij - (a_ij / dt)(eta_j - eta_i), which conserve mass to round-off at any tolerance.
 #pragma once
 #include "kernels/linear/cg.hpp"
@@ -74,7 +74,7 @@ class FreeSurface {
   double scale_ = 1;    // |r| there: what residuals are measured in, whatever the depth below the waves
   Field<double> a_, flux_;                                       // per pair
   Field<double> level_, depth_, right_, residual_, change_;      // per particle
-  Field<double> row_sum_, diagonal_, inverse_;
+  Field<double> row_sum_, diagonal_, inverse_, share_;
 };
 
 }  // namespace freshet::sisph

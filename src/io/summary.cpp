@@ -149,6 +149,11 @@ void print_steadiness(std::FILE* out, const Steadiness& s) {
                cell(s.thesis_ls, 1, "%.2e").c_str());
 }
 
+void write(JsonWriter& out, const SolverWork& w) {
+  out.begin("solver").value("passes", w.passes).value("linear_solves", w.solves).value("iterations", w.iterations);
+  out.value("most_solves_in_a_pass", w.most_solves).value("unsettled_passes", w.unsettled).end();
+}
+
 }  // namespace
 
 std::string json(const Summary& s) {
@@ -158,6 +163,7 @@ std::string json(const Summary& s) {
   out.begin("particles").value("initial", s.initial_particles).value("final", s.final_particles).end();
   out.value("steps", s.steps).value("list_rebuilds", s.list_rebuilds).value("simulated_s", s.simulated);
   out.value("wall_s", s.wall).value("particle_steps_per_s", s.particle_steps_per_s);
+  if (s.solver.passes > 0) write(out, s.solver);
   write(out, s.mass);
   write(out, s.energy);
   out.array("warnings");

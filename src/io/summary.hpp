@@ -80,6 +80,12 @@ struct EnergyBalance {
   std::pair<double, double> momentum_start{unknown, unknown}, momentum_end{unknown, unknown};                 // m4/s
 };
 
+// Work of an implicit method; no passes = an explicit one.
+struct SolverWork {
+  long passes = 0, solves = 0, iterations = 0, unsettled = 0;  // for the surface, linear, theirs, without convergence
+  int most_solves = 0;                                         // in one pass
+};
+
 struct Summary {
   std::string scene_case, method, backend, version;
   int threads = 0;
@@ -87,6 +93,7 @@ struct Summary {
   long steps = 0, list_rebuilds = 0;
   double simulated = 0, wall = 0;  // s
   double particle_steps_per_s = 0;
+  SolverWork solver;
   MassBalance mass;
   EnergyBalance energy;
   std::vector<std::string> warnings;  // what the run noticed about itself

@@ -72,7 +72,9 @@ Summary Driver::summary() const {
   s.initial_particles = initial_particles_;
   s.final_particles = fluid_count(method_.fields());
   s.steps = clock_.step;
-  s.list_rebuilds = method_.report().rebuilds;
+  const StepReport report = method_.report();
+  s.list_rebuilds = report.rebuilds;
+  s.solver = {report.passes, report.solves, report.iterations, report.unsettled, report.newton_max};
   s.simulated = clock_.t;
   s.wall = wall();
   s.particle_steps_per_s = (earlier_particle_steps_ + progress_.particle_steps()) / std::max(s.wall, 1e-9);

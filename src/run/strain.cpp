@@ -47,6 +47,9 @@ std::vector<std::string> Strain::warnings(const StepReport& report) const {
   };
   add("the density iteration laboured", whole.labour_, most_iterations);
   add("smoothing lengths outgrew their neighbour lists", whole.outgrown_, most_rebuilds);
+  if (report.unsettled > 0)
+    lines.push_back("the free surface did not settle in " + std::to_string(report.unsettled) + " of " + std::to_string(report.passes) +
+                    " passes; the mass is kept all the same\n  help: a smaller time step, or larger sisph.newton.max and sisph.cg.max");
   return lines;
 }
 

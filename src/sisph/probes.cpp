@@ -72,17 +72,22 @@ std::vector<std::string> Solver<D>::features() const {
 
 template <int D>
 ScalarState Solver<D>::scalars() const {
+  const auto number = [](auto value) { return static_cast<double>(value); };
   return {{"passed", {passed_.inflow, passed_.outflow}},
-          {"solver", {static_cast<double>(report_.solves), static_cast<double>(report_.iterations), static_cast<double>(report_.unsettled)}}};
+          {"solver", {number(report_.passes), number(report_.solves), number(report_.iterations), number(report_.unsettled),
+                      number(report_.newton_max)}}};
 }
 
 template <int D>
 void Solver<D>::restore(const ScalarState& state) {
   passed_.inflow = state.at("passed")[0];
   passed_.outflow = state.at("passed")[1];
-  report_.solves = static_cast<long>(state.at("solver")[0]);
-  report_.iterations = static_cast<long>(state.at("solver")[1]);
-  report_.unsettled = static_cast<long>(state.at("solver")[2]);
+  const std::vector<double>& solver = state.at("solver");
+  report_.passes = static_cast<long>(solver[0]);
+  report_.solves = static_cast<long>(solver[1]);
+  report_.iterations = static_cast<long>(solver[2]);
+  report_.unsettled = static_cast<long>(solver[3]);
+  report_.newton_max = static_cast<int>(solver[4]);
   measure_speeds();
 }
 

@@ -19,8 +19,6 @@ Solver<D>::Solver(const Scene& scene)
 
 template <int D>
 void Solver<D>::step(double, double dt) {
-  report_.newton_mean = 0;
-  report_.newton_max = 0;
   active_->find(water().depth);
   if (paths_)
     carry_along_paths(dt);
@@ -96,7 +94,7 @@ void Solver<D>::blend() {
 template <int D>
 void Solver<D>::solve_surface(double dt, bool drying) {
   const SurfaceReport r = surface_->solve(active_->list(), water(), before_, dt, drying);
-  report_.newton_mean += static_cast<double>(r.newton) / scene_.sisph.picard;
+  ++report_.passes;
   report_.newton_max = std::max(report_.newton_max, r.newton);
   report_.solves += r.newton;
   report_.iterations += r.iterations;
