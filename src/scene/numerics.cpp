@@ -65,7 +65,8 @@ void read_time(Table& section, const ComparePlan& compare, Scene& scene) {
                   .otherwise(scene.cfl);
   Value<double> step = section.number("dt", "s").positive();
   if (step.given() && scene.method != "sisph")
-    section.context().notes.push_back("time.dt counts for the method \"sisph\" alone; the step of \"" + scene.method + "\" follows from time.cfl");
+    section.context().notes.push_back("time.dt counts for the method \"sisph\" alone; the step of \"" + scene.method +
+                                      "\" follows from time.cfl");
   scene.time_step = step.otherwise(scene.time_step);
 }
 
