@@ -5,7 +5,7 @@
 //   dry                the same water in a domain 100 times as large
 //   ponds              half of it moved away, so that the box around the water is 100 times as large
 //   each feature       named: what it adds
-// Prints ns per particle-step, in all and by kind of pass, medians over the turns, and exits with 1 where one of the first four
+// Prints ns per particle-step, in all and by kind of pass, the least of the turns, and exits with 1 where one of the first four
 // is slower than the scene itself by more than 5 % or three times the noise.
 #include <algorithm>
 #include <array>
@@ -29,6 +29,7 @@ using namespace freshet;
 namespace {
 
 constexpr int turns = 9, steps = 10;
+constexpr double slow = 0.05;    // x the stable time step: the water hardly spreads, whose thin edges would cost by their length
 constexpr double margin = 0.05;  // of lists, as the solver's
 
 // Shallow water at rest on a square of cells of 1 m, in a domain of `wider` times its width; `split`: half of the columns
@@ -82,10 +83,7 @@ struct Stepped {
   std::function<int()> particles;
 };
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
+double least(const std::vector<double>& values) { return *std::min_element(values.begin(), values.end()); }
 
 // Made anew for each turn: where its memory lies costs more or less.
 struct Variant {
@@ -113,7 +111,7 @@ struct Variant {
 Variant solver(const std::string& name, const Scene& scene, bool judged = false) {
   const auto make = [scene] {
     const std::shared_ptr<Method> method = make_method(scene);
-    return Stepped{[method] { method->step(0, method->stable_dt()); }, [method] { return method->fields().size(); }};
+    return Stepped{[method] { method->step(0, slow * method->stable_dt()); }, [method] { return method->fields().size(); }};
   };
   return {name, make, judged};
 }
@@ -123,7 +121,7 @@ class Recipe {
  public:
   explicit Recipe(const Scene& scene)
       : method_(make_method(scene)), fields_(method_->fields()), order_(2, scene.water.spacing), sph_(scene.sph),
-        gravity_(scene.gravity), kernel_(make_kernel<2>(scene.sph.kernel, scene.sph.eta, false)), dt_(method_->stable_dt()) {}
+        gravity_(scene.gravity), kernel_(make_kernel<2>(scene.sph.kernel, scene.sph.eta, false)), dt_(slow * method_->stable_dt()) {}
 
   void step() {
     const LengthBounds bounds{sph_.h_floor, sph_.h_cap};
@@ -135,7 +133,7 @@ class Recipe {
     list_.build<2>(clusters_, {p.x, p.h, order_.rows(), p.x, p.h, 2, margin});
     swe::solve_density<2>(kernel_, clusters_, list_.view(), {}, p, {}, {gravity_, sph_.newton_tolerance, margin, bounds, true, 1, 0.5});
     swe::internal_force<2>(kernel_, clusters_, list_.view(), {}, p, swe::LaxFriedrichsMuscl{1});
-    dt_ = 0.4 * swe::accelerate_and_kick<2>(p, {gravity_, bounds, {}, {}, {}, {}}, fields_.size(), 0.5 * dt_);
+    dt_ = slow * 0.4 * swe::accelerate_and_kick<2>(p, {gravity_, bounds, {}, {}, {}, {}}, fields_.size(), 0.5 * dt_);
   }
   int particles() const { return fields_.size(); }
 
@@ -196,20 +194,20 @@ std::vector<Variant> features(int cells) {
 }
 
 int report(const std::vector<Variant>& all) {
-  const double flat = median(all[0].times), noise = std::abs(median(all[1].times) / flat - 1), allowed = std::max(0.05, 3 * noise);
-  int slow = 0;
+  const double flat = least(all[0].times), noise = std::abs(least(all[1].times) / flat - 1), allowed = std::max(0.05, 3 * noise);
+  int slower = 0;
   std::printf("%-24s %9s %8s %8s %8s %8s %8s %8s %8s\n", "", "particles", "ns", "of flat", "order", "list", "density", "force", "rest");
   for (const Variant& v : all) {
-    const double ratio = median(v.times) / flat;
+    const double ratio = least(v.times) / flat;
     const bool too_slow = v.judged && ratio > 1 + allowed;
-    slow += too_slow;
-    std::printf("%-24s %9d %8.1f %8.3f", v.name.c_str(), v.particles, median(v.times), ratio);
-    for (const auto& pass : v.passes) std::printf(" %8.1f", median(pass));
+    slower += too_slow;
+    std::printf("%-24s %9d %8.1f %8.3f", v.name.c_str(), v.particles, least(v.times), ratio);
+    for (const auto& pass : v.passes) std::printf(" %8.1f", least(pass));
     std::printf("%s\n", too_slow ? "  too slow" : "");
   }
-  std::printf("%s, %d threads; ns per particle-step, medians of %d turns of %d steps; judged: rows 2 to 5, allowed 1 + %.3f\n",
+  std::printf("%s, %d threads; ns per particle-step, least of %d turns of %d steps; judged: rows 2 to 5, allowed 1 + %.3f\n",
               backend_name(), thread_count(), turns, steps, allowed);
-  return slow > 0;
+  return slower > 0;
 }
 
 }  // namespace

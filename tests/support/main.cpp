@@ -3,6 +3,8 @@
 #define CATCH_CONFIG_RUNNER
 #include <catch2/catch.hpp>
 
+#include <cstdlib>
+
 #include "cellgrid/runtime.hpp"
 
 int main(int argc, char** argv) {
@@ -12,6 +14,7 @@ int main(int argc, char** argv) {
   const bool only_talks = asked.showHelp || asked.libIdentify || asked.listTests || asked.listTags || asked.listReporters ||
                           asked.listTestNamesOnly;
   if (only_talks) return session.run();
-  const freshet::Runtime kokkos;
+  const char* threads = std::getenv("FRESHET_TEST_THREADS");  // tests/support/threads.hpp
+  const freshet::Runtime kokkos(threads ? std::atoi(threads) : 0);
   return session.run();
 }

@@ -86,9 +86,9 @@ TEST_CASE("bed: packs give what scalars give, also beyond the lattice") {
       const auto p = bed.at(at_2d(lane_of(x.x, l), lane_of(x.y, l)));
       CHECK(std::isfinite(p.b));
       // Sixteen terms added in another order; beyond the lattice the cubic's weights reach 100.
-      CHECK(packed.b[l] == Approx(p.b).margin(1e-12));
-      CHECK(packed.slope.y[l] == Approx(p.slope.y).margin(1e-12 / dx));
-      CHECK(packed.curvature.xx[l] == Approx(p.curvature.xx).margin(1e-12 / (dx * dx)));
+      CHECK(lane_of(packed.b, l) == Approx(p.b).margin(1e-12));
+      CHECK(lane_of(packed.slope.y, l) == Approx(p.slope.y).margin(1e-12 / dx));
+      CHECK(lane_of(packed.curvature.xx, l) == Approx(p.curvature.xx).margin(1e-12 / (dx * dx)));
     }
   }
 }

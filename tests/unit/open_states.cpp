@@ -4,9 +4,9 @@
 #include <cmath>
 #include <random>
 
-#include "kernels/swe/open_states.hpp"
+#include "kernels/open_states.hpp"
 
-using namespace freshet::swe;
+using namespace freshet;
 
 namespace {
 

@@ -1,9 +1,9 @@
-#include "kernels/swe/open_states.hpp"
+#include "kernels/open_states.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace freshet::swe {
+namespace freshet {
 namespace {
 
 double celerity(double depth, const OpenStrip& strip) { return std::sqrt(strip.gravity * std::max(0.0, depth)); }
@@ -128,4 +128,4 @@ std::vector<double> discharge_shares(const std::vector<Portion>& rows, bool by_w
   return shares;
 }
 
-}  // namespace freshet::swe
+}  // namespace freshet

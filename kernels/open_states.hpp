@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-namespace freshet::swe {
+namespace freshet {
 
 // The water before one row of the line.
 struct InnerState {
@@ -86,4 +86,4 @@ struct Portion {
 // where all rows are dry.
 std::vector<double> discharge_shares(const std::vector<Portion>& rows, bool by_width);
 
-}  // namespace freshet::swe
+}  // namespace freshet

@@ -1,0 +1,48 @@
+// Vectors of a linear system: the passes that iterative solvers share. Sums are in a fixed order (independent of the number
+// of threads) and each function is one visit to memory; none allocates once `sums` has seen the size.
+// n: unknowns; fields may be longer. Device-safe: KOKKOS_LAMBDA with local copies only.
+#pragma once
+#include "cellgrid/sums.hpp"
+
+namespace freshet::linear {
+
+using Vector = Field<double>;
+
+// a . b
+inline double dot(OrderedSums& sums, int n, const Vector& a, const Vector& b) {
+  return sums.sum<1>("linear::dot", n, KOKKOS_LAMBDA(int i) { return Kokkos::Array<double, 1>{{a(i) * b(i)}}; })[0];
+}
+
+// {a . b, a . c}
+inline Kokkos::Array<double, 2> dots(OrderedSums& sums, int n, const Vector& a, const Vector& b, const Vector& c) {
+  return sums.sum<2>("linear::dots", n, KOKKOS_LAMBDA(int i) { return Kokkos::Array<double, 2>{{a(i) * b(i), a(i) * c(i)}}; });
+}
+
+// y := b - y, the residual where y holds A x; returns y . y.
+inline double subtract_from(OrderedSums& sums, int n, const Vector& b, const Vector& y) {
+  return sums.sum<1>("linear::subtract_from", n, KOKKOS_LAMBDA(int i) {
+    y(i) = b(i) - y(i);
+    return Kokkos::Array<double, 1>{{y(i) * y(i)}};
+  })[0];
+}
+
+// y := alpha x + y
+inline void add(int n, double alpha, const Vector& x, const Vector& y) {
+  Kokkos::parallel_for("linear::add", Range(0, n), KOKKOS_LAMBDA(int i) { y(i) += alpha * x(i); });
+}
+
+// y := x + beta y; beta = 0 is a copy, whatever y held.
+inline void follow(int n, const Vector& x, double beta, const Vector& y) {
+  Kokkos::parallel_for("linear::follow", Range(0, n), KOKKOS_LAMBDA(int i) { y(i) = beta == 0 ? x(i) : x(i) + beta * y(i); });
+}
+
+inline void fill(int n, double value, const Vector& y) {
+  Kokkos::parallel_for("linear::fill", Range(0, n), KOKKOS_LAMBDA(int i) { y(i) = value; });
+}
+
+// The scratch of a solver: grown only where the system grows, by half.
+inline void reserve(Vector& v, const char* label, int n) {
+  if (v.extent_int(0) < n) v = Vector(Kokkos::ViewAllocateWithoutInitializing(label), static_cast<size_t>(n + n / 2));
+}
+
+}  // namespace freshet::linear

@@ -1,0 +1,45 @@
+// Mirror images behind walls. An image has the scalars of its source particle and its vectors reflected; they stand in slots
+// behind the particles of every vector field that pairs read, refreshed by fill(). Nothing is launched where no wall is near.
+#pragma once
+#include "cellgrid/vec.hpp"
+
+namespace freshet::sisph {
+
+template <int D>
+struct Images {
+  int first = 0, count = 0;      // slots first ... first + count - 1
+  Field<int> source;             // per image
+  SymField<double, D> reflection;  // R = 1 - 2 m m^T, or -1 through a right-angled corner (1-D: always)
+
+  int slots() const { return first + count; }
+
+  KOKKOS_FORCEINLINE_FUNCTION static Sym<double, 1> of(const SymField<double, 1>& r, int k) { return {r.xx(k)}; }
+  KOKKOS_FORCEINLINE_FUNCTION static Sym<double, 2> of(const SymField<double, 2>& r, int k) { return {r.xx(k), r.xy(k), r.yy(k)}; }
+
+  void fill(const VecField<double, D>& v) const {
+    if (count == 0) return;
+    const Images images = *this;
+    Kokkos::parallel_for("sisph::reflect", Range(0, count), KOKKOS_LAMBDA(int k) {
+          put(v, images.first + k, of(images.reflection, k) * at(v, images.source(k)));
+        });
+  }
+
+  // The gradients of both components of a vector: R (grad v) R.
+  void fill_gradient(const VecField<double, D>& of_u, const VecField<double, D>& of_v) const {
+    if (count == 0) return;
+    const Images images = *this;
+    Kokkos::parallel_for("sisph::reflect_gradient", Range(0, count), KOKKOS_LAMBDA(int k) {
+          const int to = images.first + k, j = images.source(k);
+          const Sym<double, D> r = of(images.reflection, k);
+          if constexpr (D == 1) {
+            put(of_u, to, at(of_u, j));
+          } else {
+            const Vec<double, D> u = r * at(of_u, j), v = r * at(of_v, j);
+            put(of_u, to, r.xx * u + r.xy * v);
+            put(of_v, to, r.xy * u + r.yy * v);
+          }
+        });
+  }
+};
+
+}  // namespace freshet::sisph

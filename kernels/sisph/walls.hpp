@@ -1,0 +1,140 @@
+// Walls by mirror pairs: every pair (i, j) near a wall, i = j included, has a second one (i, image of j), the image in the plane
+// that touches the wall at the point nearest to the middle of i and j. The middle is the same for (j, i), so |x_i - x_j'| =
+// |x_j - x_i'|: coefficients stay symmetric and fluxes antisymmetric, mass is kept to round-off. Walls with right-angled corners
+// (the water inside) also have the image through the corner. Pairs that a wall separates are none.
+#pragma once
+#include <array>
+#include <vector>
+
+#include "cellgrid/pack.hpp"
+#include "cellgrid/vec.hpp"
+
+namespace freshet::sisph {
+
+using Polyline = std::vector<std::array<double, 2>>;  // m, the water on its left; closed if it ends where it begins; 1-D: one point
+
+// Straight pieces in chains: along a chain only the nearest point reflects, at corners with the water inside chains end.
+template <int D>
+class MirrorWalls {
+ public:
+  MirrorWalls() = default;  // no walls
+  // Ends that meet no other wall go on straight for `beyond` [m]: openings begin there.
+  MirrorWalls(const std::vector<Polyline>& lines, double beyond);
+
+  KOKKOS_FORCEINLINE_FUNCTION bool given() const { return chains_ > 0 || corners_ > 0; }
+  int slanting_corners() const { return slanting_; }  // corners with the water inside that are not right ones: no image through them
+
+  // Whether a wall may matter to a particle: one is nearer than the distance.
+  KOKKOS_INLINE_FUNCTION bool near(const Vec<double, D>& x, double distance) const;
+
+  // Calls see(image of xj, reflection) for the images of the pair that lie nearer to xi than the support [m].
+  template <class See>
+  KOKKOS_INLINE_FUNCTION void for_each_image(const Vec<double, D>& xi, const Vec<double, D>& xj, double support, const See& see) const;
+
+  // Whether a wall stands between the two.
+  KOKKOS_INLINE_FUNCTION bool part(const Vec<double, D>& xi, const Vec<double, D>& xj) const;
+
+ private:
+  struct Plane {
+    double q[2], m[2];  // a point of it, and its normal towards the water
+    double square;      // m2, distance
+    bool valid;
+  };
+  KOKKOS_INLINE_FUNCTION Plane nearest(int chain, double x, double y) const;
+
+  int chains_ = 0, corners_ = 0, slanting_ = 0;
+  Field<int> first_;                     // piece of chain c; chains + 1 values
+  Field<double> ax_, ay_, tx_, ty_, length_;  // of pieces: start [m], unit tangent, length [m]
+  Field<int> open_;                      // of chains: 1 = its ends are ends, 0 = closed
+  Field<double> corner_;                 // x, y, and both normals: six values each; 1-D: x
+};
+
+namespace detail {
+KOKKOS_FORCEINLINE_FUNCTION double second(const Vec<double, 1>&) { return 0; }
+KOKKOS_FORCEINLINE_FUNCTION double second(const Vec<double, 2>& a) { return a.y; }
+KOKKOS_FORCEINLINE_FUNCTION Vec<double, 1> make(double x, double, Vec<double, 1>) { return {x}; }
+KOKKOS_FORCEINLINE_FUNCTION Vec<double, 2> make(double x, double y, Vec<double, 2>) { return {x, y}; }
+KOKKOS_FORCEINLINE_FUNCTION Sym<double, 1> mirror(double, double, Vec<double, 1>) { return {-1.0}; }
+KOKKOS_FORCEINLINE_FUNCTION Sym<double, 2> mirror(double mx, double my, Vec<double, 2>) {
+  return {1 - 2 * mx * mx, -2 * mx * my, 1 - 2 * my * my};
+}
+KOKKOS_FORCEINLINE_FUNCTION Sym<double, 1> invert(Vec<double, 1>) { return {-1.0}; }
+KOKKOS_FORCEINLINE_FUNCTION Sym<double, 2> invert(Vec<double, 2>) { return {-1.0, 0.0, -1.0}; }
+}  // namespace detail
+
+// The wall's nearest point; at a bend with the water outside (270 degrees) the plane stands across the line to it. A place beside
+// an end of an open chain sees none.
+template <int D>
+KOKKOS_INLINE_FUNCTION typename MirrorWalls<D>::Plane MirrorWalls<D>::nearest(int chain, double x, double y) const {
+  Plane best{{0, 0}, {0, 0}, 1e300, false};
+  const int begin = first_(chain), end = first_(chain + 1);
+  for (int k = begin; k < end; ++k) {
+    const double dx = x - ax_(k), dy = y - ay_(k), along = dx * tx_(k) + dy * ty_(k);
+    const double s = smaller(larger(along, 0.0), length_(k)), px = dx - s * tx_(k), py = dy - s * ty_(k);
+    const double square = px * px + py * py;
+    if (!(square < best.square)) continue;
+    const bool inside = along > 0 && along < length_(k);
+    const double per = inside || square == 0 ? 0 : 1 / root(square);
+    const bool past_end = open_(chain) == 1 && ((k == begin && along < 0) || (k + 1 == end && along > length_(k)));
+    const double side = -ty_(k) * dx + tx_(k) * dy;  // > 0: on the water's side
+    best = {{ax_(k) + s * tx_(k), ay_(k) + s * ty_(k)},
+            {per > 0 ? per * px : -ty_(k), per > 0 ? per * py : tx_(k)},
+            square, side > 0 && !past_end};
+  }
+  return best;
+}
+
+template <int D>
+KOKKOS_INLINE_FUNCTION bool MirrorWalls<D>::near(const Vec<double, D>& x, double distance) const {
+  const double px = x.x, py = detail::second(x);
+  for (int k = 0; k < (D == 2 ? 0 : corners_); ++k)
+    if (::fabs(px - corner_(k)) < distance) return true;
+  for (int c = 0; c < chains_; ++c)
+    if (nearest(c, px, py).square < distance * distance) return true;
+  return false;
+}
+
+template <int D>
+template <class See>
+KOKKOS_INLINE_FUNCTION void MirrorWalls<D>::for_each_image(const Vec<double, D>& xi, const Vec<double, D>& xj, double support,
+                                                           const See& see) const {
+  const Vec<double, D> middle = 0.5 * (xi + xj), like{};
+  const double limit = support * support;
+  for (int c = 0; c < chains_; ++c) {
+    const Plane p = nearest(c, middle.x, detail::second(middle));
+    if (!p.valid) continue;
+    const Vec<double, D> q = detail::make(p.q[0], p.q[1], like), m = detail::make(p.m[0], p.m[1], like);
+    const double away_i = dot(m, xi - q), away_j = dot(m, xj - q);
+    if (!(away_i > 0) || !(away_j > 0)) continue;
+    const Vec<double, D> image = xj - (2 * away_j) * m, d = image - xi;
+    if (dot(d, d) < limit) see(image, detail::mirror(p.m[0], p.m[1], like));
+  }
+  for (int k = 0; k < corners_; ++k) {
+    const int at = D == 2 ? 6 * k : k;
+    const Vec<double, D> corner = detail::make(corner_(at), D == 2 ? corner_(at + 1) : 0.0, like);
+    const Vec<double, D> off = middle - corner, image = 2.0 * corner - xj, d = image - xi;
+    bool inside = true;
+    if constexpr (D == 2)
+      inside = corner_(at + 2) * off.x + corner_(at + 3) * off.y > 0 && corner_(at + 4) * off.x + corner_(at + 5) * off.y > 0;
+    if (inside && dot(d, d) < limit) see(image, detail::invert(like));
+  }
+}
+
+template <int D>
+KOKKOS_INLINE_FUNCTION bool MirrorWalls<D>::part(const Vec<double, D>& xi, const Vec<double, D>& xj) const {
+  if constexpr (D == 1) {
+    for (int k = 0; k < corners_; ++k)
+      if ((xi.x - corner_(k)) * (xj.x - corner_(k)) < 0) return true;
+  }
+  const double ix = xi.x, iy = detail::second(xi), jx = xj.x, jy = detail::second(xj);
+  for (int k = 0; k < (chains_ > 0 ? first_(chains_) : 0); ++k) {
+    const double side_i = tx_(k) * (iy - ay_(k)) - ty_(k) * (ix - ax_(k)), side_j = tx_(k) * (jy - ay_(k)) - ty_(k) * (jx - ax_(k));
+    if (side_i * side_j >= 0) continue;
+    const double f = side_i / (side_i - side_j);  // of the way from i to j
+    const double along = tx_(k) * (ix + f * (jx - ix) - ax_(k)) + ty_(k) * (iy + f * (jy - iy) - ay_(k));
+    if (along >= 0 && along <= length_(k)) return true;
+  }
+  return false;
+}
+
+}  // namespace freshet::sisph
