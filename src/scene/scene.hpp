@@ -121,6 +121,7 @@ struct Sph {
   double strength = 1.0;  // factor on the Lax-Friedrichs term
   std::array<double, 2> viscosity{1.0, 0.0};  // a, b of the artificial viscosity (2.53)
   Acceleration acceleration = Acceleration::variational;
+  bool steep_is_classical = false;  // unless the scene names one: variational up to a slope, classical over steeper beds
   double newton_tolerance = 1e-5;  // of the relative density residual
   double h_floor = 0.8;            // x h0; the reader's default is 1.6^(-1/D): what a density 1.6 times the initial one gives
   double h_cap = 3.0;              // x h0
