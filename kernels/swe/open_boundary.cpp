@@ -28,7 +28,8 @@ void fill_gaps(std::vector<OpenRow>& rows) {
 }
 
 // The inner state of a row, and its slow means taken on by dt: over the time that a wave takes to cross `memory`; anew with
-// dt = 0 and on the first water. What arrives has no mean inflow: uniform flow inwards would go on by itself, and grow.
+// dt = 0 and on the first water. What arrives meets a mean inflow so that it ends: u = 0 on the line. Uniform
+// flow inwards would go on by itself, and grow.
 InnerState inner_state(OpenRow& row, double gravity, double least, double memory, double dt) {
   const double depth = row.level - row.bed;
   if (depth <= least) {
@@ -39,7 +40,7 @@ InnerState inner_state(OpenRow& row, double gravity, double least, double memory
   const double part = dt == 0 || row.mean_celerity == 0 ? 1 : 1 - std::exp(-c * dt / memory);
   row.mean_speed += part * (row.speed - row.mean_speed);
   row.mean_celerity += part * (c - row.mean_celerity);
-  return {depth, row.speed, std::min(row.mean_speed, 0.0) + 2 * row.mean_celerity};
+  return {depth, row.speed, 2 * row.mean_celerity - std::abs(row.mean_speed)};
 }
 
 // Share of the discharge of each row; empty where nothing is to be shared.

@@ -13,7 +13,7 @@ namespace freshet::swe {
 struct InnerState {
   double depth = 0;   // m, 0 = dry
   double inward = 0;  // m/s
-  double arriving = 0;  // m/s, u + 2 c of the slow means, with a mean that flows inwards taken as at rest
+  double arriving = 0;  // m/s, -|u| + 2 c of the slow means
 };
 
 // One row of the line.
@@ -66,7 +66,7 @@ struct ImposedState {
 
 // Zero gradient: what enters, u + 2 c, is that of the inner state itself, of which the slow mean keeps the scheme's own errors
 // at the line from feeding back; R leaves. Nothing flows in but for as long as a wave's trough takes to leave: a mean inflow,
-// which nothing outside would bound, is taken as still water of the mean depth.
+// which nothing outside would bound, meets water that flows against it and ends.
 struct Transmissive {
   ExteriorState operator()(const InnerState& inner, const OpenStrip& strip) const;
 };

@@ -97,8 +97,7 @@ SplitPattern split_pattern(int count, double alpha, double eps, double turn) {
   for (const auto& corner : corners)
     a11 += product(alpha, alpha, std::hypot(corner[0] - corners[0][0], corner[1] - corners[0][1])) / n;
   const bool middle = count == static_cast<int>(corners.size()) + 1;
-  const double best = (a00 - a01 - b0 + b1) / (a00 - 2 * a01 + a11);
-  const double s = !middle ? 1.0 : alpha < 1 ? std::clamp(best, 0.0, 1.0) : n / (n + 1);
+  const double best = (a00 - a01 - b0 + b1) / (a00 - 2 * a01 + a11), s = middle ? std::clamp(best, 0.0, 1.0) : 1.0;
   SplitPattern pattern;
   if (s < 1) pattern.daughters.push_back({{0, 0}, 1 - s});
   if (s > 0)

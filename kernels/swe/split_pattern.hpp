@@ -1,8 +1,7 @@
 // What a split particle becomes: daughters on a fixed pattern and their shares of its mass (Vacondio 2010, 3.2).
 // 2-D: six on a circle of radius eps h_N and one in the middle; 1-D: two at +- eps h_N, with or without one in the middle.
 // All daughters have h_k = alpha h_N. The shares lambda minimise (3.6), the integral of
-// (m_N W(x, h_N) - sum_k lambda_k m_N W(x - x_k, alpha h_N))^2, under sum lambda = 1 and lambda >= 0; with alpha = 1, where that
-// would leave all in the middle, they are equal.
+// (m_N W(x, h_N) - sum_k lambda_k m_N W(x - x_k, alpha h_N))^2, under sum lambda = 1 and lambda >= 0.
 #pragma once
 #include <vector>
 

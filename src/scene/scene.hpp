@@ -144,7 +144,7 @@ struct Split {
   AreaLimit area;          // a particle that covers this or more is split
   int into = 7;            // daughters: 7 in 2-D, 2 or 3 in 1-D
   double alpha, eps;       // a daughter's h and the pattern's radius, x the parent's h
-  double relax = 3;        // h / c: time in which a daughter's h goes to eta (m / depth)^(1/D)
+  double relax = 10;       // h / c: time in which a daughter's h goes to eta (m / depth)^(1/D)
   bool linear = false;     // daughters follow the velocity gradient; else they have the parent's velocity
   double least_depth = 0;  // m
   int most_particles = 20000000;
@@ -153,7 +153,7 @@ struct Split {
 struct Merge {
   AreaLimit area;     // particles that both cover less merge
   double reach = 1;   // x h: how far apart at most
-  double relax = 3;   // h / c
+  double relax = 10;  // h / c
 };
 
 struct Compare {

@@ -46,9 +46,11 @@ double depth_error_inside(const std::string& dx) {
 // errors are ours. Depth: a scheme of second order misses the momentum balance by some (dx/l)^2 = 8e-4 for dx = 5 m and
 // l = 1000 m/sqrt(32), and depth answers with 1/(1 - Fr^2), 9.9 in the mean square: 0.8 %, rounded to 1 %. Discharge, at every
 // particle: 1 %, and steady below 1e-4 1/s, as for the bump.
-TEST_CASE("MacDonald's subcritical channel: steady, its depth, its discharge") {
-  const Scene scene = test::read_case("macdonald");
-  const test::CaseRun run = test::finish_case("macdonald");
+TEST_CASE("MacDonald's channels, subcritical and transcritical: steady, their depth, their discharge") {
+  const std::string name = GENERATE("macdonald", "macdonald_transcritical");
+  CAPTURE(name);
+  const Scene scene = test::read_case(name);
+  const test::CaseRun run = test::finish_case(name);
   REQUIRE(run.gauges.size() == 5);
   CHECK(change(scene, run.gauges) < 1e-4);
   CHECK(run.summary.errors.depth_l2_rel < 0.01);
