@@ -10,7 +10,7 @@ void ClusterSet::cut(const Rows& rows) {
   const Rows r = rows;
   Kokkos::parallel_scan("cellgrid::count_clusters", Range(0, rows.rows + 1), KOKKOS_LAMBDA(int row, int& sum, bool last) {
         if (last) row_start(row) = sum;
-        if (row < r.rows) sum += (r.start((row + 1) * r.bins) - r.start(row * r.bins) + lanes - 1) / lanes;
+        if (row < r.rows) sum += (r.row_begin(row + 1) - r.row_begin(row) + lanes - 1) / lanes;
       });
   Kokkos::deep_copy(size_, Kokkos::subview(row_start_, rows.rows));
   if (first_.extent_int(0) < size_) {
@@ -20,9 +20,9 @@ void ClusterSet::cut(const Rows& rows) {
   }
   const Field<int> first = first_, count = count_;
   Kokkos::parallel_for("cellgrid::cut_clusters", Range(0, rows.rows), KOKKOS_LAMBDA(int row) {
-        const int end = r.start((row + 1) * r.bins);
+        const int end = r.row_begin(row + 1);
         int c = row_start(row);
-        for (int i = r.start(row * r.bins); i < end; i += lanes, ++c) {
+        for (int i = r.row_begin(row); i < end; i += lanes, ++c) {
           first(c) = i;
           count(c) = smaller(lanes, end - i);
         }

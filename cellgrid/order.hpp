@@ -1,5 +1,6 @@
 // Particles in the order of rows of about two spacings and, within a row, of thin bins along x: who is near whom is then a
 // few contiguous runs of indices. The order is a function of the positions and ids alone (row, bin, then id).
+// Bins are kept by blocks, and only blocks that hold a particle: dry land between waters costs one number per block.
 #pragma once
 #include "cellgrid/fields.hpp"
 #include "cellgrid/pack.hpp"
@@ -12,11 +13,27 @@ struct Rows {
   double bin_width = 1, row_height = 1;           // m
   double per_bin_width = 1, per_row_height = 1;   // 1/m
   int rows = 1, bins = 1;               // rows, and bins in each
-  Field<int> start;                     // first particle of bin b of row r at [r * bins + b]; rows * bins + 1 entries
+  int columns = 1;                      // blocks in each row
+  Field<int> block;                     // first kept cell of block c of row r at [r * columns + c], and the number of cells
+  Field<int> start;                     // first particle of each kept cell, and the number of particles
 
+  double support = 0;                   // m, largest
   int tile_rows = 1, tile_bins = 1;     // a tile's size in rows and bins: at least the largest support
   int tiles_x = 0, tiles_y = 0;
   Field<double> reach;                  // m, largest h of a tile and its eight neighbours
+
+  static constexpr int block_bins = 32;
+
+  // First particle of bin b of row r, and one past its last; of a bin that is not kept, the next particle in the order.
+  KOKKOS_FORCEINLINE_FUNCTION int begin(int r, int b) const {
+    const int k = r * columns + b / block_bins, first = block(k);
+    return start(block(k + 1) > first ? first + b % block_bins : first);
+  }
+  KOKKOS_FORCEINLINE_FUNCTION int end(int r, int b) const {
+    const int k = r * columns + b / block_bins, first = block(k);
+    return start(block(k + 1) > first ? first + b % block_bins + 1 : first);
+  }
+  KOKKOS_FORCEINLINE_FUNCTION int row_begin(int r) const { return start(block(r * columns)); }  // r = rows: all particles
 
   KOKKOS_FORCEINLINE_FUNCTION int bin_of(double x) const { return cell((x - x0) * per_bin_width, bins); }
   KOKKOS_FORCEINLINE_FUNCTION int row_of(double y) const { return cell((y - y0) * per_row_height, rows); }
@@ -47,7 +64,7 @@ struct Rows {
       const double dy = larger(0.0, larger(below, above));
       if (dy > distance) continue;
       const double s = root(distance * distance - dy * dy);
-      run(start(r * bins + bin_of(xlo - s)), start(r * bins + bin_of(xhi + s) + 1));
+      run(begin(r, bin_of(xlo - s)), end(r, bin_of(xhi + s)));
     }
   }
 };
@@ -65,14 +82,19 @@ class RowOrder {
 
   const Rows& rows() const { return rows_; }
 
+ public:  // device lambdas may not live in private members
+  int keep_blocks(const FieldSet& particles);
+  void count_bins(const FieldSet& particles, int cells);
+  void place(const FieldSet& particles, int cells);
+
  private:
   void lay_grid(const FieldSet& particles);
-  void count_bins(const FieldSet& particles);
-  void place(const FieldSet& particles);
+  int lay_tiles();
 
   int dimension_;
   double spacing_;
   Rows rows_;
+  Field<int> mark_;  // 1 where a block holds a particle; all zero between sorts
   Field<int> key_, slot_, order_;
   Field<double> x_, y_, tile_h_;
   Field<int> id_;

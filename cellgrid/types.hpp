@@ -11,7 +11,14 @@ using Exec = Kokkos::Serial;
 #else
 using Exec = Kokkos::DefaultExecutionSpace;
 #endif
+// On a GPU managed memory: set-up, gauges and outputs read fields on the host.
+#if defined(KOKKOS_ENABLE_CUDA) && !defined(FRESHET_SERIAL)
+using Memory = Kokkos::CudaUVMSpace;
+#elif defined(KOKKOS_ENABLE_HIP) && !defined(FRESHET_SERIAL)
+using Memory = Kokkos::Experimental::HIPManagedSpace;
+#else
 using Memory = Exec::memory_space;
+#endif
 using Range = Kokkos::RangePolicy<Exec>;
 
 template <class T>

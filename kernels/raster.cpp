@@ -101,7 +101,7 @@ KOKKOS_FORCEINLINE_FUNCTION Cover<D> gather_water(const SortedWater<D>& water, c
 // The blocks around the particles' bounding box, widened by more than a support.
 template <int D>
 Blocks blocks_near(const CellGrid& grid, const Rows& rows) {
-  const double margin = std::max({4 * rows.row_height, rows.tile_rows * rows.row_height, rows.tile_bins * rows.bin_width});
+  const double margin = std::max(4 * rows.row_height, 1.1 * rows.support);
   const auto cell = [&](double at, double first, double step, int n) {
     return static_cast<int>(std::clamp(std::floor((at - first) / step), 0.0, n - 1.0));
   };

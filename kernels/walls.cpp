@@ -10,6 +10,10 @@ void fill(const Field<T>& field, const std::vector<WallPoint>& points, const F& 
   Kokkos::deep_copy(field, host);
 }
 
+void number(const Field<int>& id, int n) {
+  Kokkos::parallel_for("walls::number", Range(0, n), KOKKOS_LAMBDA(int k) { id(k) = k; });
+}
+
 Stretch stretch_of(WallKind kind) {
   if (kind == WallKind::vbp) return {1, {2, 2}};
   return kind == WallKind::mvbp ? Stretch{2, {2, 4}} : Stretch{1, {1, 1}};
@@ -34,8 +38,7 @@ Walls<D>::Walls(const std::vector<WallLine>& lines, const WallOptions& options, 
     add("pyy", [](const WallPoint& w) { return w.p[2]; });
   }
   fill(points_.integer("segment", "1", Carry::sort), g.points, [](const WallPoint& w) { return w.segment; });
-  const Field<int> id = points_.integer("id", "1", Carry::sort);
-  Kokkos::parallel_for("walls::number", Range(0, points_.size()), KOKKOS_LAMBDA(int k) { id(k) = k; });
+  number(points_.integer("id", "1", Carry::sort), points_.size());
   order_.sort(points_);
   order_.measure_reach(points_, points_.real("h", "m", Carry::no), 1.0);
   segments_ = Kokkos::View<WallSegment*, Memory>("walls.segments", g.segments.size());
@@ -105,7 +108,8 @@ void Walls<D>::reflect(const ClusterSet& clusters, const VecField<double, D>& x,
             const WallSegment s = walls.segments(segment);
             const Vec<double, D> normal = normal_of<D>(s);
             put(x, i, at(x, i) + (-2 * side_of(s, at(x, i)).inside) * normal);
-            for (const VecField<double, D>& velocity : {v, v_pred}) {
+            const VecField<double, D> velocities[2] = {v, v_pred};
+            for (const VecField<double, D>& velocity : velocities) {
               const double outward = smaller(dot(at(velocity, i), normal), 0.0);
               put(velocity, i, at(velocity, i) + (-2 * outward) * normal);
             }

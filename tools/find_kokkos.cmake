@@ -1,4 +1,5 @@
-# Makes Kokkos::kokkos: Kokkos_ROOT, else .deps/kokkos (tools/setup), else a pinned release from upstream, else the system's.
+# Makes Kokkos::kokkos: Kokkos_ROOT, else .deps/kokkos (tools/setup; .deps/kokkos-threads where FRESHET_BACKEND is Threads),
+# else a pinned release from upstream, else the system's.
 # No version in find_package: Kokkos' version file accepts only the same major. The system's Kokkos comes last, since loading
 # a Serial-only package and rejecting it would leave variables behind that break a Kokkos in a sub-directory.
 set(kokkos_pinned 4.4.01)
@@ -40,8 +41,12 @@ endmacro()
 if(DEFINED ENV{Kokkos_ROOT} AND NOT DEFINED Kokkos_ROOT)
   set(Kokkos_ROOT $ENV{Kokkos_ROOT})
 endif()
-if(NOT Kokkos_ROOT AND NOT FRESHET_FETCH_KOKKOS AND EXISTS ${PROJECT_SOURCE_DIR}/.deps/kokkos)
-  set(kokkos_installed ${PROJECT_SOURCE_DIR}/.deps/kokkos)
+set(kokkos_set_up ${PROJECT_SOURCE_DIR}/.deps/kokkos)
+if(FRESHET_BACKEND STREQUAL "Threads")
+  string(APPEND kokkos_set_up -threads)
+endif()
+if(NOT Kokkos_ROOT AND NOT FRESHET_FETCH_KOKKOS AND EXISTS ${kokkos_set_up})
+  set(kokkos_installed ${kokkos_set_up})
 elseif(Kokkos_ROOT AND NOT FRESHET_FETCH_KOKKOS)
   set(kokkos_installed ${Kokkos_ROOT})
 endif()
@@ -77,8 +82,11 @@ endif()
 message(STATUS "Kokkos ${Kokkos_VERSION} with ${Kokkos_DEVICES} from ${kokkos_from}")
 if(FRESHET_BACKEND STREQUAL "Serial" AND NOT "SERIAL" IN_LIST Kokkos_DEVICES)
   message(FATAL_ERROR "FRESHET_BACKEND=Serial, but this Kokkos has only: ${Kokkos_DEVICES}. Build Kokkos with Kokkos_ENABLE_SERIAL=ON.")
-elseif(FRESHET_BACKEND AND NOT FRESHET_BACKEND STREQUAL "Serial")
-  message(FATAL_ERROR "FRESHET_BACKEND='${FRESHET_BACKEND}' is none of: '' (Kokkos' default), 'Serial'.")
+elseif(FRESHET_BACKEND STREQUAL "Threads" AND NOT Kokkos_DEVICES MATCHES "THREAD")  # PTHREAD in 3.4
+  message(FATAL_ERROR "FRESHET_BACKEND=Threads, but this Kokkos has only: ${Kokkos_DEVICES}. Call tools/setup threads, "
+                      "or set Kokkos_ROOT to a Kokkos with the Threads backend.")
+elseif(FRESHET_BACKEND AND NOT FRESHET_BACKEND MATCHES "^(Serial|Threads)$")
+  message(FATAL_ERROR "FRESHET_BACKEND='${FRESHET_BACKEND}' is none of: '' (Kokkos' default), 'Serial', 'Threads'.")
 elseif(NOT FRESHET_BACKEND AND "${Kokkos_DEVICES}" STREQUAL "SERIAL")
   message(WARNING "This Kokkos has the Serial backend only: Freshet will run on one thread. tools/setup builds one with OpenMP.")
 endif()

@@ -5,7 +5,7 @@
 namespace freshet::swe {
 namespace {
 
-constexpr int most_evaluations = 60;  // each changes rho by at most 2: enough to cross any range
+constexpr int most_turns = 60;  // each changes rho by at most 2: enough to cross any range
 
 // sum_j m_j F (v_j - v_i) (x) (x_j - x_i), and its trace.
 template <class V, int D>
@@ -37,25 +37,36 @@ KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 2> symmetric_gradient(const Gradient<Lane,
   return {b.ux * l.xx + b.uy * l.xy, 0.5 * shear * (b.ux * l.xy + b.uy * l.yy + b.vx * l.xx + b.vy * l.xy), b.vx * l.xy + b.vy * l.yy};
 }
 
+// What a walk over the neighbours is for: density and its derivative by h; also d rho/dt; also grad v.
+enum class Want { density, rate, gradient };
+
 template <int D>
 struct Sums {
-  Lane density{0.0};       // sum m W
-  Sym<Lane, D> spread;     // sum m F x_ji (x) x_ji, F = -W'/r; its trace is -sum m r W'
-  Gradient<Lane, D> slope;  // sum m F v_ji (x) x_ji
+  Lane density{0.0};        // sum m W
+  Lane moment{0.0};         // sum m F r^2, F = -W'/r
+  Lane closing{0.0};        // sum m F v_ji . x_ji
+  Sym<Lane, D> spread;      // sum m F x_ji (x) x_ji: its trace is the moment
+  Gradient<Lane, D> slope;  // sum m F v_ji (x) x_ji: its divergence is the closing
   WallSums<Lane, D> wall;
 };
 
-// One pair: the density, its derivative and, where wanted, the velocity gradient, all from one 1/r.
-template <bool Gradients, class K, int D>
+// One pair, all from one 1/r.
+template <Want want, class K, int D>
 KOKKOS_FORCEINLINE_FUNCTION void add_pair(const K& kernel, const Vec<Lane, D>& x_ji, const Vec<Lane, D>& v_ji, Lane m, Lane inv_h,
                                           Sums<D>& sum) {
   const Lane r2 = dot(x_ji, x_ji) + tiny_square;
   const Lane inv_r = rsqrt(r2);
   const auto k = kernel.at(r2 * inv_r * inv_h);
+  const Lane f = -m * k.dw * inv_r;
   sum.density += m * k.w;
-  const Vec<Lane, D> f_x = (-m * k.dw * inv_r) * x_ji;
-  add_square(sum.spread, f_x, x_ji);
-  if constexpr (Gradients) sum.slope.add(f_x, v_ji);
+  if constexpr (want == Want::gradient) {
+    const Vec<Lane, D> f_x = f * x_ji;
+    add_square(sum.spread, f_x, x_ji);
+    sum.slope.add(f_x, v_ji);
+  } else {
+    sum.moment += f * r2;
+    if constexpr (want == Want::rate) sum.closing += f * dot(v_ji, x_ji);
+  }
 }
 
 // What a cluster's particles bring to their sums.
@@ -77,15 +88,16 @@ struct SumDensity {
     return {me.load(p.x), me.load(p.v_pred), me.load(p.m), me.load(p.h0)};
   }
 
-  template <bool Gradients>
+  template <Want want>
   KOKKOS_INLINE_FUNCTION Sums<D> sum(int c, const Here<D>& i, Lane rho, Lane h) const {
     Sums<D> s;
     const Lane inv_h = 1.0 / h;
     near.for_each(c, [&](int j) {
       Vec<Lane, D> v_ji;
-      if constexpr (Gradients) v_ji = broadcast(at(p.v_pred, j)) - i.v;
-      add_pair<Gradients>(kernel, broadcast(at(p.x, j)) - i.x, v_ji, Lane(p.m(j)), inv_h, s);
+      if constexpr (want != Want::density) v_ji = broadcast(at(p.v_pred, j)) - i.v;
+      add_pair<want>(kernel, broadcast(at(p.x, j)) - i.x, v_ji, Lane(p.m(j)), inv_h, s);
     });
+    if constexpr (want == Want::gradient) s.moment = trace(s.spread), s.closing = s.slope.divergence();
     const Lane per_volume = power<D>(inv_h);
     s.density *= per_volume;
     if (walls.on && walls.mirror)
@@ -95,6 +107,9 @@ struct SumDensity {
     return s;
   }
 
+  // Whether the sums depend on the particle's own depth beside its h: through virtual particles that follow it.
+  KOKKOS_INLINE_FUNCTION bool follow_depth(int c) const { return walls.on && !walls.mirror && walls.near.length(c) > 0; }
+
   // What the neighbours' images add: the cluster's own image sees the neighbours.
   KOKKOS_INLINE_FUNCTION void add_images(int c, const Here<D>& i, Lane inv_h, WallSums<Lane, D>& wall) const {
     const Lane per_volume = power<D>(inv_h);
@@ -103,11 +118,11 @@ struct SumDensity {
       Sums<D> s;
       near.for_each(c, [&](int j) {
         if (!walls.mirrors(segment, at(p.x, j))) return;
-        add_pair<true>(kernel, broadcast(at(p.x, j)) - x_image, broadcast(at(p.v_pred, j)) - v_image, Lane(p.m(j)), inv_h, s);
+        add_pair<Want::rate>(kernel, broadcast(at(p.x, j)) - x_image, broadcast(at(p.v_pred, j)) - v_image, Lane(p.m(j)), inv_h, s);
       });
       wall.density += weight * per_volume * s.density;
-      wall.moment += weight * per_volume * inv_h * trace(s.spread);
-      wall.approach += weight * per_volume * inv_h * s.slope.divergence();
+      wall.moment += weight * per_volume * inv_h * s.moment;
+      wall.approach += weight * per_volume * inv_h * s.closing;
     });
   }
 
@@ -145,15 +160,15 @@ struct SolveDensity {
     const Lane longest_listed = (1.0 + options.margin) * listed;
     Lane rho = me.load(p.rho), h = clamp(smoothing_length<D>(kh, rho), low, smaller(high, longest_listed));
     const Lane imposed_rho = rho;
-    Sums<D> s = sums.template sum<true>(c, i, rho, h);
+    Sums<D> s = options.gradient ? sums.template sum<Want::gradient>(c, i, rho, h) : sums.template sum<Want::rate>(c, i, rho, h);
     const Sums<D> first = s;  // the gradient and the rate need no more than the predicted h
     Lane alpha, bounded, own;
     int n = 1;
-    for (;; ++n) {
+    for (int turn = 1;; ++turn) {
       const Lane total = calibrated * (s.density + s.wall.density);
-      const Lane moment = calibrated * (trace(s.spread) * power<D>(1.0 / h) / h + s.wall.moment);
+      const Lane moment = calibrated * (s.moment * power<D>(1.0 / h) / h + s.wall.moment);
       const Lane wanted = smoothing_length<D>(kh, rho);
-      bounded = select((wanted < low) | (high < wanted), Lane(1.0), Lane(0.0));
+      bounded = select((low < wanted) & (wanted < high), Lane(0.0), Lane(1.0));
       alpha = moment / (rho * double(D));
       own = sums.walls.follows_depth() * calibrated * s.wall.density / rho;
       const Lane slope = rho - total + rho * (alpha - own);
@@ -164,9 +179,12 @@ struct SolveDensity {
       const Lane factor = select(Lane(0.5) < held, sum_itself, newton);
       const Lane residual = free * larger(rho - total, total - rho) / rho;
       rho = select(Lane(0.5) < imposed, imposed_rho, rho * clamp(factor, Lane(0.5), Lane(2.0)));
-      if (!any(Lane(options.tolerance) < residual) || n == most_evaluations) break;
-      h = clamp(smoothing_length<D>(kh, rho), low, smaller(high, longest_listed));
-      s = sums.template sum<false>(c, i, rho, h);
+      if (!any(Lane(options.tolerance) < residual) || turn == most_turns) break;
+      const Lane next = clamp(smoothing_length<D>(kh, rho), low, smaller(high, longest_listed));
+      if (!any((next < h) | (h < next)) && !sums.follow_depth(c)) continue;  // a fixed h: the sums are known
+      h = next;
+      s = sums.template sum<Want::density>(c, i, rho, h);
+      ++n;
     }
     const Lane wanted = clamp(smoothing_length<D>(kh, rho), low, high);
     h = select(Lane(0.5) < imposed, smoothing_length<D>(kh, rho), wanted);
@@ -194,7 +212,7 @@ struct SolveDensity {
     me.store(p.pressure, 0.5 * options.gravity / (options.calibration.extent(0) > 0 ? Lane(1.0) : alpha));
     me.store(p.celerity, root(options.gravity * state.rho));
     me.store(p.weight, m * per_volume * inv_h);
-    const Lane closing = calibrated * (s.slope.divergence() * per_volume * inv_h + s.wall.approach);
+    const Lane closing = calibrated * (s.closing * per_volume * inv_h + s.wall.approach);
     const Lane rate = -free * closing / (state.alpha - state.own);
     me.store(p.growth, options.ahead > 0 ? rate + free * options.ahead * (rate - me.load(p.rate)) : rate);
     me.store(p.rate, rate);
@@ -210,7 +228,7 @@ struct Calibrate {
   KOKKOS_INLINE_FUNCTION void operator()(int c) const {
     const Lanes me = sums.clusters(c);
     const Lane rho = me.load(sums.p.rho);
-    const Sums<D> s = sums.template sum<false>(c, sums.here(me), rho, me.load(sums.p.h));
+    const Sums<D> s = sums.template sum<Want::density>(c, sums.here(me), rho, me.load(sums.p.h));
     me.store(calibration, clamp(rho / (s.density + s.wall.density), Lane(0.5), Lane(2.0)));
   }
 };

@@ -17,7 +17,8 @@ struct Pair {
 template <int D>
 KOKKOS_INLINE_FUNCTION double merged_length(const Particles<D>& p, int i, int j, const Vec<double, D>& x) {
   double density = 0;
-  for (const int k : {i, j}) {
+  const int both[2] = {i, j};
+  for (const int k : both) {
     const Vec<double, D> d = at(p.x, k) - x;
     density += p.m(k) * Kernel<D>::at(root(dot(d, d)) / p.h(k)).w / power<D>(p.h(k));
   }
@@ -81,7 +82,8 @@ int Refinement<D>::merge(const Particles<D>& p, int n, const Field<int>& kind, c
           const Vec<double, D> x = at(p.x, i) + part * (at(p.x, j) - at(p.x, i));
           p.h(i) = merged_length<D>(p, i, j, x);
           put(p.x, i, x);
-          for (const VecField<double, D>& v : {p.v, p.v_pred}) put(v, i, at(v, i) + part * (at(v, j) - at(v, i)));
+          const VecField<double, D> velocities[2] = {p.v, p.v_pred};
+          for (const VecField<double, D>& v : velocities) put(v, i, at(v, i) + part * (at(v, j) - at(v, i)));
           p.rho(i) = m / (p.m(i) / p.rho(i) + p.m(j) / p.rho(j));  // the areas add up
           p.rate(i) += part * (p.rate(j) - p.rate(i));
           p.m(i) = m;

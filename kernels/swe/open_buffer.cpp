@@ -139,7 +139,8 @@ Crossed OpenBuffer<D>::convert(FieldSet& particles, const Particles<D>& p, const
         const OpenRow state = row(r);
         if (leaves && state.closed) {
           put(f.x, i, x + (-2 * inside) * at_line.line.inward);
-          for (const VecField<double, D>& v : {f.v, f.v_pred})
+          const VecField<double, D> velocities[2] = {f.v, f.v_pred};
+          for (const VecField<double, D>& v : velocities)
             put(v, i, at(v, i) + (-2 * smaller(dot(at(v, i), at_line.line.inward), 0.0)) * at_line.line.inward);
           return in_out;
         }

@@ -29,12 +29,18 @@ bool needs_depth_gradient(const AnyStabilisation& stabilise) {
   return std::visit([](const auto& s) { return s.depth_gradient; }, stabilise);
 }
 
+// Where h is held at h0 lists need no margin; particles at open boundaries have an h of their own.
+double margin_of(const Scene& scene) {
+  const bool fixed_h = scene.sph.h_floor == scene.sph.h_cap && scene.boundaries.empty();
+  return fixed_h ? 0.0 : 0.05;
+}
+
 }  // namespace
 
 template <int D>
 Solver<D>::Solver(const Scene& scene)
     : scene_(scene), kernel_(make_kernel<D>(scene.sph.kernel, scene.sph.eta, scene.sph.lattice_correction)),
-      support_(std::visit([](const auto& k) { return k.support; }, kernel_)), order_(D, scene.water.spacing),
+      support_(std::visit([](const auto& k) { return k.support; }, kernel_)), margin_(margin_of(scene)), order_(D, scene.water.spacing),
       stabilise_(make_stabilisation(scene.sph, scene.gravity)), gradient_(needs_velocity_gradient(stabilise_)),
       depth_gradient_(needs_depth_gradient(stabilise_)), imposed_alpha_(lattice_sums<D>(scene.sph.eta, kernel_).alpha) {
   build_bed();
@@ -87,16 +93,16 @@ void Solver<D>::find_neighbours() {
 template <int D>
 void Solver<D>::list_neighbours() {
   const Particles<D> p = bind();
-  order_.measure_reach(particles_, p.h, support_ * (1 + list_margin));
-  neighbours_.build<D>(clusters_, {p.x, p.h, order_.rows(), p.x, p.h, support_, list_margin});
-  if (walls_) walls_->find(clusters_, p.x, p.h, list_margin);
+  order_.measure_reach(particles_, p.h, support_ * (1 + margin_));
+  neighbours_.build<D>(clusters_, {p.x, p.h, order_.rows(), p.x, p.h, support_, margin_});
+  if (walls_) walls_->find(clusters_, p.x, p.h, margin_);
 }
 
 // Density; where an h outgrew the list's margin, the list is made again with the h found.
 template <int D>
 void Solver<D>::close_density(double ahead) {
   constexpr int most_lists = 20;  // each may grow h by the margin at most before it is made again
-  DensityOptions options{scene_.gravity, scene_.sph.newton_tolerance, list_margin,
+  DensityOptions options{scene_.gravity, scene_.sph.newton_tolerance, margin_,
                          {scene_.sph.h_floor, scene_.sph.h_cap}, gradient_, imposed_alpha_, ahead,
                          scene_.sph.well_balanced ? particles_.real("calibration") : Field<double>()};
   for (int lists = 0; lists < most_lists; ++lists) {
@@ -111,7 +117,7 @@ void Solver<D>::close_density(double ahead) {
     list_neighbours();
   }
   throw Diverged("the density did not settle: some smoothing length still outgrows its neighbour list after " +
-                 std::to_string(most_lists) + " lists; limit: growth by " + std::to_string(list_margin) +
+                 std::to_string(most_lists) + " lists; limit: growth by " + std::to_string(margin_) +
                  " per list\n  help: a smaller time.cfl, or look at the start for particles on top of each other");
 }
 

@@ -13,8 +13,6 @@
 
 namespace freshet::swe {
 
-constexpr double list_margin = 0.05;  // growth of h within a step that the neighbour list covers; more makes it again
-
 template <int D>
 class Solver : public Method {
  public:
@@ -36,6 +34,10 @@ class Solver : public Method {
   ScalarState scalars() const override;
   void restore(const ScalarState& scalars) override;
 
+ public:  // device lambdas may not live in private members
+  void fill_boundaries();
+  void place_particles();
+
  private:
   void build_bed();
   void build_friction();
@@ -43,8 +45,6 @@ class Solver : public Method {
   void build_boundaries();
   void build_refinement();  // src/swe/refine.cpp
   Function initial_depth() const;
-  void fill_boundaries();
-  void place_particles();
   void make_fields();
   Particles<D> bind() const;
   MotionOptions<D> motion() const;
@@ -60,6 +60,7 @@ class Solver : public Method {
   Scene scene_;
   AnyKernel<D> kernel_;
   double support_;  // of the kernel, x h
+  double margin_;   // growth of h within a step that the neighbour list covers; more makes it again
   FieldSet particles_;
   RowOrder order_;
   ClusterSet clusters_;

@@ -2,75 +2,13 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
-#include <map>
-#include <set>
-#include <string>
 
-#include "tests/support/recording.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/skips.hpp"
 
 using namespace freshet;
+using test::bare_step, test::drop, test::extra_labels, test::field_names, test::minus, test::Names, test::sorted_fields;
 using test::Flow;
 using test::Recording;
-
-namespace {
-
-// A drop that spreads: flat, frictionless, without walls and boundaries.
-Scene drop() {
-  Scene scene = test::bare_scene(2, {-1, -1}, {1, 1}, 0.05);
-  scene.water.depth = [](double x, double y) { return 0.5 - x * x - y * y; };
-  scene.water.wet_above = 0.05;
-  return scene;
-}
-
-const std::vector<std::string> sorting{"cellgrid::extent", "cellgrid::clear", "cellgrid::count", "cellgrid::scan",
-                                       "cellgrid::place",  "cellgrid::settle"};
-
-// The launches of one step of a bare scene, in their order. fields: how many the sort carries.
-std::vector<std::string> bare_step(int fields) {
-  std::vector<std::string> labels{"swe::kick_and_drift"};
-  labels.insert(labels.end(), sorting.begin(), sorting.end());
-  labels.insert(labels.end(), static_cast<size_t>(fields), "cellgrid::permute");
-  for (const char* label : {"cellgrid::count_clusters", "cellgrid::cut_clusters", "cellgrid::largest_h", "cellgrid::tile_h",
-                            "cellgrid::reach", "cellgrid::list", "swe::density", "swe::force", "swe::accelerate"})
-    labels.emplace_back(label);
-  return labels;
-}
-
-int sorted_fields(const FieldSet& fields) {
-  int count = 0;
-  for (const auto& f : fields.reals()) count += is_sorted(f.carry);
-  for (const auto& f : fields.integers()) count += is_sorted(f.carry);
-  return count;
-}
-
-std::set<std::string> field_names(const Scene& scene) {
-  const Flow flow(scene);
-  std::set<std::string> names;
-  for (const auto& f : flow.method->fields().reals()) names.insert(f.name);
-  for (const auto& f : flow.method->fields().integers()) names.insert(f.name);
-  return names;
-}
-
-// Labels of a step of this scene beyond those of the bare one.
-std::set<std::string> extra_labels(const Scene& scene) {
-  Flow flow(scene);
-  flow.many_steps(3);
-  const Recording recording;
-  flow.many_steps(1);
-  std::set<std::string> extra = recording.labels();
-  for (const auto& label : bare_step(1)) extra.erase(label);
-  return extra;
-}
-
-std::set<std::string> minus(std::set<std::string> a, const std::set<std::string>& b) {
-  for (const auto& name : b) a.erase(name);
-  return a;
-}
-
-using Names = std::set<std::string>;
-
-}  // namespace
 
 TEST_CASE("skips: a bare scene launches exactly its passes, in order") {
   Flow flow(drop());

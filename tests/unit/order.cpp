@@ -22,11 +22,9 @@ struct Sorted {
       : fields(test::point_fields(dimension, points, ids)), order(dimension, dx) {
     order.sort(fields);
   }
-  int key(int i) const {
-    const Rows& rows = order.rows();
-    const int row = fields.has("y") ? rows.row_of(fields.real("y")(i)) : 0;
-    return row * rows.bins + rows.bin_of(fields.real("x")(i));
-  }
+  int row(int i) const { return fields.has("y") ? order.rows().row_of(fields.real("y")(i)) : 0; }
+  int bin(int i) const { return order.rows().bin_of(fields.real("x")(i)); }
+  long key(int i) const { return static_cast<long>(row(i)) * order.rows().bins + bin(i); }
   std::vector<int> ids() const {
     const auto id = fields.integer("id");
     return {id.data(), id.data() + fields.size()};
@@ -38,7 +36,7 @@ int out_of_order(const Sorted& s) {
   int wrong = 0;
   const auto id = s.ids();
   for (int i = 0; i + 1 < s.fields.size(); ++i) {
-    const int here = s.key(i), next = s.key(i + 1);
+    const long here = s.key(i), next = s.key(i + 1);
     wrong += next < here || (next == here && id[static_cast<size_t>(i + 1)] < id[static_cast<size_t>(i)]);
   }
   return wrong;
@@ -48,8 +46,11 @@ int out_of_order(const Sorted& s) {
 int misplaced(const Sorted& s) {
   const Rows& rows = s.order.rows();
   int wrong = 0;
-  for (int i = 0; i < s.fields.size(); ++i) wrong += i < rows.start(s.key(i)) || i >= rows.start(s.key(i) + 1);
-  return wrong + (rows.start(0) != 0) + (rows.start(rows.rows * rows.bins) != s.fields.size());
+  for (int i = 0; i < s.fields.size(); ++i) {
+    const int r = s.row(i), b = s.bin(i);
+    wrong += i < rows.begin(r, b) || i >= rows.end(r, b) || i < rows.row_begin(r) || i >= rows.row_begin(r + 1);
+  }
+  return wrong + (rows.begin(0, 0) != 0) + (rows.row_begin(rows.rows) != s.fields.size());
 }
 
 // Particles whose position is no longer the one of their id.
@@ -72,7 +73,9 @@ void require_sorted(const Sorted& s, const std::vector<Point>& points) {
   CHECK(misplaced(s) == 0);
 }
 
-int cells(const Rows& rows) { return rows.rows * rows.bins; }
+// Entries of the tables that the order keeps.
+int blocks(const Rows& rows) { return rows.rows * rows.columns; }
+int cells(const Rows& rows) { return rows.block(blocks(rows)); }
 
 }  // namespace
 
@@ -154,12 +157,12 @@ TEST_CASE("order: a position that is not a number loses no particle") {
 TEST_CASE("order: a position that becomes infinite keeps the grid that was") {
   auto points = test::random_points(2, 500, 1.0, 32);
   Sorted s(2, points);
-  const int before = cells(s.order.rows());
+  const int before = blocks(s.order.rows());
   s.fields.real("x")(100) = std::numeric_limits<double>::infinity();
   s.fields.real("y")(200) = -std::numeric_limits<double>::infinity();
   s.order.sort(s.fields);
   CHECK(s.fields.size() == 500);
-  CHECK(cells(s.order.rows()) == before);
+  CHECK(blocks(s.order.rows()) == before);
   CHECK(misplaced(s) == 0);
 }
 
@@ -171,9 +174,39 @@ TEST_CASE("order: a stray particle does not make a huge grid") {
   if (along != 1) points[500][0] = far;
   if (along != 0 && dimension == 2) points[500][1] = -far;
   const Sorted s(dimension, points);
-  // order.cpp allows 8 N + 1024 rows, and as many cells; the last bin of every row comes on top.
-  CHECK(cells(s.order.rows()) <= 2 * (8 * 1000 + 1024) + 2);
+  // order.cpp allows 4 N + 4096 rows, and as many blocks; the last block of every row comes on top.
+  CHECK(blocks(s.order.rows()) <= 2 * (4 * 1000 + 4096) + 2);
   require_sorted(s, points);
+}
+
+// Runs of particles within a distance of a place, as a list and by looking at every particle.
+void check_runs(const Sorted& s, const Point& at, double distance) {
+  std::vector<int> found(static_cast<size_t>(s.fields.size()), 0);
+  s.order.rows().for_each_run(at[0], at[0], at[1], at[1], distance, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) ++found[static_cast<size_t>(i)];
+  });
+  int missed = 0, twice = 0;
+  for (int i = 0; i < s.fields.size(); ++i) {
+    const double r = std::hypot(s.fields.real("x")(i) - at[0], s.fields.real("y")(i) - at[1]);
+    missed += r <= distance && found[static_cast<size_t>(i)] == 0;
+    twice += found[static_cast<size_t>(i)] > 1;
+  }
+  CHECK(missed == 0);
+  CHECK(twice == 0);
+}
+
+TEST_CASE("order: two ponds far apart need no wider bins and hardly more memory, and every place finds its particles") {
+  auto points = test::random_points(2, 1500, 2.0, 61, {0, 0});
+  const auto other = test::random_points(2, 1500, 2.0, 62, {70, 30});  // 160 times the area of both
+  points.insert(points.end(), other.begin(), other.end());
+  const Sorted s(2, points);
+  require_sorted(s, points);
+  CHECK(s.order.rows().bin_width == 0.5 * dx);
+  CHECK(s.order.rows().row_height == 2 * dx);
+  CHECK(cells(s.order.rows()) <= 2 * 21 * 4 * Rows::block_bins);  // two ponds of 21 rows, each across four blocks at most
+  test::Random random(63);
+  for (int k = 0; k < 40; ++k) check_runs(s, {random(-3, 73), random(-3, 33)}, random(0.1, 2));  // dry places too
+  for (int k = 0; k < 40; ++k) check_runs(s, points[static_cast<size_t>(70 * k)], random(0.1, 2));
 }
 
 TEST_CASE("order: the largest h near a place is never too small, and far ones do not count") {

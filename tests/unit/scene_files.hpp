@@ -61,4 +61,9 @@ inline Scene read_text(const std::string& text, const std::vector<std::string>& 
   return read_scene_text(text, "scene.toml", overrides);
 }
 
+// A scene beside the files of a directory.
+inline Scene read_in(const Directory& here, const std::string& text) {
+  return read_scene_text(text, here.path() + "/scene.toml");
+}
+
 }  // namespace freshet::test

@@ -9,14 +9,7 @@ using namespace freshet;
 using freshet::test::Directory;
 using freshet::test::failure;
 using freshet::test::pond;
-
-namespace {
-
-Scene read_in(const Directory& here, const std::string& text) {
-  return read_scene_text(text, here.path() + "/scene.toml");
-}
-
-}  // namespace
+using freshet::test::read_in;
 
 TEST_CASE("Times of a series are scaled and shifted, profiles are measured over places") {
   const Directory here;

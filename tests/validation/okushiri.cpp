@@ -31,7 +31,7 @@ double mean_rmse(const Summary& s) {
 
 }  // namespace
 
-TEST_CASE("okushiri: gauges, run-up and mass", "[okushiri][long]") {
+TEST_CASE("okushiri: gauges, run-up and mass", "[okushiri][slow]") {
   if (skipped()) return;
   const Summary s = test::run_case("okushiri");
   REQUIRE(s.gauges.size() == 3);

@@ -53,7 +53,7 @@ void check_basin(const Basin& basin) {
 
 }  // namespace
 
-TEST_CASE("a lake over a hump stays at rest", "[long]") {
+TEST_CASE("a lake over a hump stays at rest", "[slow]") {
   // The lattice is no equilibrium of the summed densities: particles move until it is. Printed: < 0.01, order about 1.
   check_basin({"lake_at_rest", 0.005, 0.9, 0.04});
 }

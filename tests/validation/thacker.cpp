@@ -68,7 +68,7 @@ void check_after_five_periods(const test::CaseRun& run, const Oscillation& oscil
 
 }  // namespace
 
-TEST_CASE("the planar Thacker surface comes back after one and five periods", "[long]") {
+TEST_CASE("the planar Thacker surface comes back after one and five periods", "[slow]") {
   const auto run = five_periods("thacker");
   CHECK(run.summary.initial_particles == 11304);  // the thesis' number at dx = 50 m
   check_after_five_periods(run, circling(run.fluid));

@@ -1,0 +1,150 @@
+// Pairs whose coefficients are stored (SELL-W): W consecutive particles are the lanes of a slice, and entry e of a slice holds
+// one neighbour of each lane. Made once for particles at rest; matrix products and pair passes then stream through the entries.
+// Short rows are padded with the particle itself: x_j - x_i = 0, so whatever vanishes with the distance needs no mask.
+#pragma once
+#include "cellgrid/clusters.hpp"
+
+namespace freshet {
+
+// The vector of particles j per lane.
+KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 1> gather(const VecField<double, 1>& f, LaneIndex j) { return {gather(f.x.data(), j)}; }
+KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 2> gather(const VecField<double, 2>& f, LaneIndex j) {
+  return {gather(f.x.data(), j), gather(f.y.data(), j)};
+}
+
+// The pairs as the device sees them. A coefficient is a Field with one value per entry and lane (Pairs::coefficient).
+struct PairView {
+  int particles = 0;
+  Field<int> start;  // first entry of slice s; slices() + 1 values
+  Field<int> j;      // neighbour of lane l in entry e at [e * lanes + l]
+
+  KOKKOS_FORCEINLINE_FUNCTION int slices() const { return (particles + lanes - 1) / lanes; }
+  KOKKOS_FORCEINLINE_FUNCTION Lanes operator()(int slice) const {
+    return {slice * lanes, smaller(lanes, particles - slice * lanes)};
+  }
+  KOKKOS_FORCEINLINE_FUNCTION static size_t at(int entry, int lane = 0) { return static_cast<size_t>(entry) * lanes + lane; }
+
+  KOKKOS_FORCEINLINE_FUNCTION LaneIndex neighbours(int entry) const {
+    LaneIndex value;
+    __builtin_memcpy(&value, j.data() + at(entry), sizeof(value));
+    return value;
+  }
+  static KOKKOS_FORCEINLINE_FUNCTION Lane load(const Field<double>& coefficient, int entry) {
+    Lane value;
+    __builtin_memcpy(&value, coefficient.data() + at(entry), sizeof(value));
+    return value;
+  }
+  static KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 1> load(const VecField<double, 1>& f, int entry) { return {load(f.x, entry)}; }
+  static KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 2> load(const VecField<double, 2>& f, int entry) {
+    return {load(f.x, entry), load(f.y, entry)};
+  }
+  static KOKKOS_FORCEINLINE_FUNCTION void store(const Field<double>& coefficient, int entry, Lane value) {
+    __builtin_memcpy(coefficient.data() + at(entry), &value, sizeof(value));
+  }
+  static KOKKOS_FORCEINLINE_FUNCTION void store(const VecField<double, 1>& f, int entry, const Vec<Lane, 1>& a) {
+    store(f.x, entry, a.x);
+  }
+  static KOKKOS_FORCEINLINE_FUNCTION void store(const VecField<double, 2>& f, int entry, const Vec<Lane, 2>& a) {
+    store(f.x, entry, a.x);
+    store(f.y, entry, a.y);
+  }
+
+  // Calls pair(entry, j) for the entries of a slice.
+  template <class Pair>
+  KOKKOS_FORCEINLINE_FUNCTION void for_each(int slice, const Pair& pair) const {
+    const int end = start(slice + 1);
+    for (int e = start(slice); e < end; ++e) pair(e, neighbours(e));
+  }
+
+  // sum_j a_ij x_j per lane: the off-diagonal part of a matrix product. Padding must hold a = 0.
+  KOKKOS_FORCEINLINE_FUNCTION Lane weighted_sum(int slice, const Field<double>& a, const Field<double>& x) const {
+    Lane sum(0.0);
+    for_each(slice, [&](int e, LaneIndex k) { sum += load(a, e) * gather(x.data(), k); });
+    return sum;
+  }
+};
+
+// What to pair: particles closer than factor (h_i + h_j) / 2.
+template <int D>
+struct PairRequest {
+  const Rows& rows;       // their order, with the reach of their h measured
+  VecField<double, D> x;  // m
+  Field<double> h;        // m
+  double factor;          // support / h
+};
+
+class Pairs {
+ public:
+  // Neighbours by distance, in the order of rows and bins.
+  template <int D>
+  void build(int particles, const PairRequest<D>& request);
+
+  // visit(i, put) calls put(j) for every neighbour of i, the same ones each time that it is asked.
+  template <class Visit>
+  void list(int particles, const Visit& visit);
+
+  const PairView& view() const { return view_; }
+  int entries() const { return entries_; }  // of all slices; a coefficient has lanes times as many values
+  // A zero coefficient of every pair.
+  Field<double> coefficient(const std::string& label) const { return Field<double>(label, PairView::at(entries_)); }
+  template <int D>
+  VecField<double, D> vector_coefficient(const std::string& label) const;
+
+ private:
+  template <class Visit>
+  void measure(const Visit& visit);
+  template <class Visit>
+  void fill(const Visit& visit);
+
+  PairView view_;
+  int entries_ = 0;
+};
+
+template <class Visit>
+void Pairs::list(int particles, const Visit& visit) {
+  view_.particles = particles;
+  measure(visit);
+  fill(visit);
+}
+
+// The longest row of a slice is its number of entries.
+template <class Visit>
+void Pairs::measure(const Visit& visit) {
+  const int slices = view_.slices();
+  const PairView view = view_;
+  const Field<int> start("cellgrid.pair_start", static_cast<size_t>(slices + 1));
+  Kokkos::parallel_for("cellgrid::count_pairs", Range(0, slices), KOKKOS_LAMBDA(int s) {
+        const Lanes me = view(s);
+        int longest = 0;
+        for (int l = 0; l < me.count; ++l) {
+          int n = 0;
+          visit(me.particle(l), [&](int) { ++n; });
+          longest = larger(longest, n);
+        }
+        start(s) = longest;
+      });
+  Kokkos::parallel_scan("cellgrid::place_slices", Range(0, slices + 1), KOKKOS_LAMBDA(int s, int& sum, bool last) {
+        const int here = s < slices ? start(s) : 0;
+        if (last) start(s) = sum;
+        sum += here;
+      });
+  Kokkos::deep_copy(entries_, Kokkos::subview(start, slices));
+  view_.start = start;
+  view_.j = Field<int>(Kokkos::ViewAllocateWithoutInitializing("cellgrid.pair_j"), PairView::at(entries_));
+}
+
+template <class Visit>
+void Pairs::fill(const Visit& visit) {
+  const PairView view = view_;
+  Kokkos::parallel_for("cellgrid::fill_pairs", Range(0, view.slices()), KOKKOS_LAMBDA(int s) {
+        const Lanes me = view(s);
+        for (int l = 0; l < lanes; ++l) {
+          const int i = me.particle(l);
+          int e = view.start(s);
+          if (l < me.count) visit(i, [&](int j) { view.j(PairView::at(e++, l)) = j; });
+          for (; e < view.start(s + 1); ++e) view.j(PairView::at(e, l)) = i;
+        }
+      });
+}
+
+}  // namespace freshet
