@@ -40,24 +40,16 @@ void interpolate(const Line& line) {
   for (int k = n - 2; k > 0; --k) line[k] -= upper[k] * line[k + 1];
 }
 
-// Largest differences of neighbouring coefficients along each axis among the 16 nodes that a cell feels, combined: the slope of
-// a B-spline is a mean of them.
-double steepest_in(const std::vector<double>& c, int nx, int ny, int i0, int j0) {
+// Largest difference of neighbouring coefficients along each axis, combined: the slope of a B-spline is a mean of them.
+double steepest_step(const std::vector<double>& c, int nx, int ny) {
   double along_x = 0, along_y = 0;
-  for (int j = j0; j < std::min(j0 + 4, ny); ++j)
-    for (int i = i0; i < std::min(i0 + 4, nx); ++i) {
+  for (int j = 0; j < ny; ++j)
+    for (int i = 0; i < nx; ++i) {
       const size_t k = static_cast<size_t>(j) * nx + i;
-      if (i + 1 < std::min(i0 + 4, nx)) along_x = std::max(along_x, std::abs(c[k + 1] - c[k]));
-      if (j + 1 < std::min(j0 + 4, ny)) along_y = std::max(along_y, std::abs(c[k + nx] - c[k]));
+      if (i + 1 < nx) along_x = std::max(along_x, std::abs(c[k + 1] - c[k]));
+      if (j + 1 < ny) along_y = std::max(along_y, std::abs(c[k + nx] - c[k]));
     }
   return std::hypot(along_x, along_y);
-}
-
-double steepest_step(const std::vector<double>& c, int nx, int ny) {
-  double most = 0;
-  for (int j = 0; j < std::max(1, ny - 3); ++j)
-    for (int i = 0; i < std::max(1, nx - 3); ++i) most = std::max(most, steepest_in(c, nx, ny, i, j));
-  return most;
 }
 
 }  // namespace

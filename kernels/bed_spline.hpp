@@ -55,7 +55,7 @@ class BedSpline {
   }
 
   std::array<double, 2> range() const { return range_; }  // m, lowest and highest level on the lattice
-  double steepest() const { return steepest_; }           // a bound of |grad b| on the lattice, cell by cell
+  double steepest() const { return steepest_; }           // a bound of |grad b| on the lattice
   int points() const { return nx_ * ny_; }
 
  private:

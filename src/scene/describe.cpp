@@ -116,8 +116,8 @@ std::string numerics(const Scene& scene) {
   if (sph.stabilisation == Stabilisation::artificial_viscosity)
     out += " a = " + brief(sph.viscosity[0]) + ", b = " + brief(sph.viscosity[1]);
   if (sph.strength != 1) out += " x " + brief(sph.strength);
-  if (sph.acceleration == Acceleration::classical) return out + ", classical acceleration";
-  return out + ", variational acceleration" + (sph.steep_is_classical ? " up to slopes of 1.5" : "");
+  return out + (sph.acceleration == Acceleration::classical ? ", classical acceleration"
+                                                            : ", variational acceleration");
 }
 
 std::string area(const AreaLimit& limit) {

@@ -121,7 +121,6 @@ struct Sph {
   double strength = 1.0;  // factor on the Lax-Friedrichs term
   std::array<double, 2> viscosity{1.0, 0.0};  // a, b of the artificial viscosity (2.53)
   Acceleration acceleration = Acceleration::variational;
-  bool steep_is_classical = false;  // unless the scene names one: variational up to a slope, classical over steeper beds
   double newton_tolerance = 1e-5;  // of the relative density residual
   double h_floor = 0.8;            // x h0; the reader's default is 1.6^(-1/D): what a density 1.6 times the initial one gives
   double h_cap = 3.0;              // x h0
@@ -144,7 +143,7 @@ struct Split {
   AreaLimit area;          // a particle that covers this or more is split
   int into = 7;            // daughters: 7 in 2-D, 2 or 3 in 1-D
   double alpha, eps;       // a daughter's h and the pattern's radius, x the parent's h
-  double relax = 10;       // h / c: time in which a daughter's h goes to eta (m / depth)^(1/D)
+  double relax = 3;        // h / c: time in which a daughter's h goes to eta (m / depth)^(1/D)
   bool linear = false;     // daughters follow the velocity gradient; else they have the parent's velocity
   double least_depth = 0;  // m
   int most_particles = 20000000;
@@ -153,7 +152,7 @@ struct Split {
 struct Merge {
   AreaLimit area;     // particles that both cover less merge
   double reach = 1;   // x h: how far apart at most
-  double relax = 10;  // h / c
+  double relax = 3;   // h / c
 };
 
 struct Compare {

@@ -76,7 +76,6 @@ bool read_sph(Table& section, Scene& scene) {
   if (sph.well_balanced && acceleration == Acceleration::variational)
     section.error("well_balanced", "the well-balanced bed force belongs to the classical acceleration",
                   "remove 'sph.acceleration'");
-  sph.steep_is_classical = !acceleration;
   sph.acceleration = sph.well_balanced ? Acceleration::classical : acceleration.value_or(sph.acceleration);
   return acceleration.has_value() || sph.well_balanced;
 }

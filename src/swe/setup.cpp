@@ -28,16 +28,14 @@ void set_field(const Field<double>& field, const std::vector<Placed>& particles,
 }  // namespace
 
 // On slopes below 1e-3 the variational acceleration differs from the classical one by 1e-6 g: the bed's curvature is not
-// looked up there. Over a step it lets too little water pass (docs/design.md).
+// looked up there.
 template <int D>
 void Solver<D>::build_bed() {
-  constexpr double flat = 1e-3, steep = 1.5;
+  constexpr double flat = 1e-3;
   if (!scene_.bed.elevation) return;
   const double spacing = scene_.bed.spacing > 0 ? scene_.bed.spacing : scene_.water.spacing;
   bed_ = Bed<D>{BedSpline<D>(scene_.bed.elevation, {scene_.domain.low, scene_.domain.high, spacing, scene_.bed.filter}), false, {}};
-  const double slope = bed_->spline.steepest();
-  bed_->variational = scene_.sph.acceleration == Acceleration::variational && slope >= flat &&
-                      (slope <= steep || !scene_.sph.steep_is_classical);
+  bed_->variational = scene_.sph.acceleration == Acceleration::variational && bed_->spline.steepest() >= flat;
 }
 
 template <int D>
