@@ -104,10 +104,13 @@ void OpenBuffer<D>::observe(const Rows& rows, const Particles<D>& p, const Field
             const Vec<double, D> d = at(f.x, j) - here;
             const double w = f.m(j) / f.rho(j) * power<D>(f.inv_h(j)) * Kernel<D>::at(root(dot(d, d)) * f.inv_h(j)).w;
             weight += w;
-            const double u = dot(at(f.v, j), at_line.line.inward), depth = f.rho(j) / summed, b = bed_at<D>(ground, at(f.x, j));
-            level += w * (depth + b + fall<D>(friction, depth, u, {at(f.x, j), at_line.inside(at(f.x, j)), bed_on_line - b}));
+            const Vec<double, D> there = at(f.x, j), v = at(f.v, j);
+            const double u = dot(v, at_line.line.inward), depth = f.rho(j) / summed, b = bed_at<D>(ground, there);
+            // Where it flows in, a fall would answer each particle that enters.
+            const double out = smaller(u, 0.0), lower = fall<D>(friction, depth, out, {there, at_line.inside(there), bed_on_line - b});
+            level += w * (depth + b + lower);
             speed += w * u;
-            slip += w * dot(at(f.v, j), at_line.line.tangent);
+            slip += w * dot(v, at_line.line.tangent);
           }
         });
         row(r).wet = weight > 0;

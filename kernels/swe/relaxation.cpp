@@ -4,8 +4,6 @@
 namespace freshet::swe {
 namespace {
 
-constexpr double most_growth = 1.02;  // of h in a step: within what the list's margin covers beside the flow's own stretching
-
 template <int D>
 struct Relax {
   ClusterSet clusters;
@@ -33,7 +31,7 @@ struct Relax {
       const double excess = p.kh(i) / (per_mass * lane_of(heaviest, l));
       if (lane_of(fixed, l) > 0.5 || ::fabs(excess - 1) < 1e-12) continue;
       const double left = time > 0 ? ::exp(-dt * root(gravity * p.rho(i)) / (time * p.h(i))) : 0.0;
-      const double factor = smaller(::pow(excess, left - 1), time > 0 ? power<D>(most_growth) : 1e300);
+      const double factor = ::pow(excess, left - 1);
       p.kh(i) *= factor;
       p.h0(i) = smaller(p.h0(i) * (D == 1 ? factor : root(factor)), larger(p.h0(i), longest));
     }
