@@ -13,7 +13,7 @@ namespace freshet {
 struct InnerState {
   double depth = 0;   // m, 0 = dry
   double inward = 0;  // m/s
-  double arriving = 0;  // m/s, slow mean of u + 2 c
+  double arriving = 0;  // m/s, -|u| + 2 c of the slow means
 };
 
 // One row of the line.
@@ -65,7 +65,8 @@ struct ImposedState {
 };
 
 // Zero gradient: what enters, u + 2 c, is that of the inner state itself, of which the slow mean keeps the scheme's own errors
-// at the line from feeding back; R leaves.
+// at the line from feeding back; R leaves. Nothing flows in but for as long as a wave's trough takes to leave: a mean inflow,
+// which nothing outside would bound, meets water that flows against it and ends.
 struct Transmissive {
   ExteriorState operator()(const InnerState& inner, const OpenStrip& strip) const;
 };

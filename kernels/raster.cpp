@@ -9,21 +9,58 @@ namespace {
 // h may have grown since its local largest was measured (a neighbour list covers 5 %); what lies beyond a kernel adds zero.
 constexpr double reach = CubicSpline<2>::support * 1.06;
 
-// Cells are taken `lanes` along x at a time.
-struct Packs {
-  int i0 = 0, j0 = 0, across = 0, up = 0;  // first cell and row; packs per row, rows
+// Cells are taken `lanes` at a time: in 2-D two rows of half as many, since a kernel that covers one cell of a compact block
+// covers more of the others than of a long one.
+template <int D>
+constexpr int rows_of_block = D == 2 && lanes > 1 ? 2 : 1;
+template <int D>
+constexpr int columns_of_block = lanes / rows_of_block<D>;
+
+struct Blocks {
+  int i0 = 0, j0 = 0, across = 0, up = 0;  // first cell and row; blocks along x and y
   int count() const { return across * up; }
 };
 
-KOKKOS_INLINE_FUNCTION Lanes cells_of(const CellGrid& grid, int i, int j) { return {j * grid.nx + i, smaller(lanes, grid.nx - i)}; }
+// The cells (i ... , j ...) of a block; lanes beyond the grid are no cells.
+template <int D>
+struct Block {
+  int i, j, nx, ny;
+
+  KOKKOS_FORCEINLINE_FUNCTION int column(int lane) const { return i + lane % columns_of_block<D>; }
+  KOKKOS_FORCEINLINE_FUNCTION int row(int lane) const { return j + lane / columns_of_block<D>; }
+  KOKKOS_FORCEINLINE_FUNCTION bool holds(int lane) const { return column(lane) < nx && row(lane) < ny; }
+  KOKKOS_FORCEINLINE_FUNCTION int cell(int lane) const { return row(lane) * nx + column(lane); }
+  KOKKOS_FORCEINLINE_FUNCTION Lane load(const Field<double>& f) const {
+    Lane value(0.0);
+    for (int l = 0; l < lanes; ++l)
+      if (holds(l)) set_lane(value, l, f(cell(l)));
+    return value;
+  }
+  KOKKOS_FORCEINLINE_FUNCTION void store(const Field<double>& f, const Lane& value) const {
+    for (int l = 0; l < lanes; ++l)
+      if (holds(l)) f(cell(l)) = lane_of(value, l);
+  }
+};
 
 template <int D>
-KOKKOS_INLINE_FUNCTION Vec<Lane, D> centres(const CellGrid& grid, int i, int j) {
+KOKKOS_FORCEINLINE_FUNCTION Block<D> block_at(const CellGrid& grid, const Blocks& blocks, int k) {
+  return {blocks.i0 + k % blocks.across * columns_of_block<D>, blocks.j0 + k / blocks.across * rows_of_block<D>, grid.nx, grid.ny};
+}
+
+template <int D>
+KOKKOS_INLINE_FUNCTION Vec<Lane, D> centres(const CellGrid& grid, const Block<D>& block) {
   Vec<Lane, D> place;
-  for (int l = 0; l < lanes; ++l) set_lane(place.x, l, grid.x(i + l));
-  if constexpr (D == 2) place.y = Lane(grid.y(j));
+  for (int l = 0; l < lanes; ++l) {
+    set_lane(place.x, l, grid.x(block.column(l)));
+    if constexpr (D == 2) set_lane(place.y, l, grid.y(block.row(l)));
+  }
   return place;
 }
+
+// The rectangle of a block's centres.
+struct Span {
+  double xlo, xhi, ylo, yhi;  // m
+};
 
 template <int D>
 KOKKOS_FORCEINLINE_FUNCTION void add(const SortedWater<D>& water, int j, const Vec<Lane, D>& place, Cover<D>& sums) {
@@ -37,32 +74,33 @@ KOKKOS_FORCEINLINE_FUNCTION void add(const SortedWater<D>& water, int j, const V
   sums.flow += w * broadcast(at(water.v, j));
 }
 
-// Whether the kernel of fluid particle k reaches the segment of centres.
+// Whether the kernel of fluid particle k reaches the rectangle of centres.
 template <int D>
-KOKKOS_FORCEINLINE_FUNCTION bool covers(const SortedWater<D>& water, int k, double xlo, double xhi, double y) {
-  const double x = water.x.x(k), along = larger(0.0, larger(xlo - x, x - xhi)), support = CubicSpline<D>::support * water.h(k);
+KOKKOS_FORCEINLINE_FUNCTION bool covers(const SortedWater<D>& water, int k, const Span& s) {
+  const double x = water.x.x(k), along = larger(0.0, larger(s.xlo - x, x - s.xhi)), support = CubicSpline<D>::support * water.h(k);
   double across = 0;
-  if constexpr (D == 2) across = y - water.x.y(k);
+  if constexpr (D == 2) across = larger(0.0, larger(s.ylo - water.x.y(k), water.x.y(k) - s.yhi));
   const bool fluid = water.kind.extent(0) == 0 || water.kind(k) == 0;
   return along * along + across * across < support * support && fluid && water.depth(k) > 0;
 }
 
 template <int D>
-KOKKOS_FORCEINLINE_FUNCTION Cover<D> gather_water(const SortedWater<D>& water, const CellGrid& grid, int i, int j) {
-  const Vec<Lane, D> place = centres<D>(grid, i, j);
-  const double xlo = grid.x(i), xhi = grid.x(i + lanes - 1), y = grid.y(j);
-  const double far = reach * water.rows.largest_h(xlo, xhi, y, y);
+KOKKOS_FORCEINLINE_FUNCTION Cover<D> gather_water(const SortedWater<D>& water, const CellGrid& grid, const Block<D>& block) {
+  const Vec<Lane, D> place = centres<D>(grid, block);
+  const Span s{grid.x(block.column(0)), grid.x(block.column(lanes - 1)), grid.y(block.row(0)), grid.y(block.row(lanes - 1))};
+  const double far = reach * water.rows.largest_h(s.xlo, s.xhi, s.ylo, s.yhi);
   Cover<D> sums;
   if (!(far > 0)) return sums;
-  water.rows.for_each_run(xlo, xhi, y, y, far, [&](int begin, int end) {
+  water.rows.for_each_run(s.xlo, s.xhi, s.ylo, s.yhi, far, [&](int begin, int end) {
     for (int k = begin; k < end; ++k)
-      if (covers(water, k, xlo, xhi, y)) add(water, k, place, sums);
+      if (covers(water, k, s)) add(water, k, place, sums);
   });
   return sums;
 }
 
-// The packs around the particles' bounding box, widened by more than a support.
-Packs packs_near(const CellGrid& grid, const Rows& rows) {
+// The blocks around the particles' bounding box, widened by more than a support.
+template <int D>
+Blocks blocks_near(const CellGrid& grid, const Rows& rows) {
   const double margin = std::max(4 * rows.row_height, 1.1 * rows.support);
   const auto cell = [&](double at, double first, double step, int n) {
     return static_cast<int>(std::clamp(std::floor((at - first) / step), 0.0, n - 1.0));
@@ -71,7 +109,7 @@ Packs packs_near(const CellGrid& grid, const Rows& rows) {
   const int i1 = cell(rows.x0 + rows.bins * rows.bin_width + margin, grid.x0, grid.dx, grid.nx);
   const int j0 = grid.ny > 1 ? cell(rows.y0 - margin, grid.y0, grid.dy, grid.ny) : 0;
   const int j1 = grid.ny > 1 ? cell(rows.y0 + rows.rows * rows.row_height + margin, grid.y0, grid.dy, grid.ny) : 0;
-  return {i0, j0, (i1 - i0) / lanes + 1, j1 - j0 + 1};
+  return {i0, j0, (i1 - i0) / columns_of_block<D> + 1, (j1 - j0) / rows_of_block<D> + 1};
 }
 
 using Dynamic = Kokkos::RangePolicy<Exec, Kokkos::Schedule<Kokkos::Dynamic>>;  // dry cells cost next to nothing
@@ -88,12 +126,11 @@ CoverFields::CoverFields(int cells)
 template <int D>
 CoverFields cover_cells(const CellGrid& grid, const SortedWater<D>& water) {
   const CoverFields out(grid.size());
-  const Packs packs = packs_near(grid, water.rows);
+  const Blocks blocks = blocks_near<D>(grid, water.rows);
   const SortedWater<D> w = water;
-  Kokkos::parallel_for("raster::cover", Dynamic(0, packs.count()), KOKKOS_LAMBDA(int pack) {
-        const int i = packs.i0 + pack % packs.across * lanes, j = packs.j0 + pack / packs.across;
-        const Cover<D> sums = gather_water(w, grid, i, j);
-        const Lanes cells = cells_of(grid, i, j);
+  Kokkos::parallel_for("raster::cover", Dynamic(0, blocks.count()), KOKKOS_LAMBDA(int k) {
+        const Block<D> cells = block_at<D>(grid, blocks, k);
+        const Cover<D> sums = gather_water(w, grid, cells);
         cells.store(out.cover, sums.cover);
         cells.store(out.depth, sums.depth);
         cells.store(out.u, sums.flow.x);
@@ -112,50 +149,58 @@ Maxima::Maxima(int cells, double wet_depth)
 
 namespace {
 
-// Takes the cells' sums into the maxima; returns how many of them are wet, and the first and last of those.
+// How many cells are wet, and the first and last column and row of those.
+struct Wet {
+  int count = 0, west, east, south, north;
+};
+
 template <int D>
-KOKKOS_FORCEINLINE_FUNCTION int take(const Maxima& m, const Lanes& cells, const Cover<D>& sums, double t, int& first, int& last) {
+KOKKOS_FORCEINLINE_FUNCTION Wet extent_of(const Block<D>& cells, const Lane& marks) {
+  Wet wet{0, cells.nx, -1, cells.ny, -1};
+  for (int l = 0; l < lanes; ++l) {
+    if (!(lane_of(marks, l) > 0) || !cells.holds(l)) continue;
+    ++wet.count;
+    wet.west = smaller(wet.west, cells.column(l)), wet.east = larger(wet.east, cells.column(l));
+    wet.south = smaller(wet.south, cells.row(l)), wet.north = larger(wet.north, cells.row(l));
+  }
+  return wet;
+}
+
+// Takes the cells' sums into the maxima.
+template <int D>
+KOKKOS_FORCEINLINE_FUNCTION Wet take(const Maxima& m, const Block<D>& cells, const Cover<D>& sums, double t) {
   const Lane covered = select(sums.cover < Lane(edge_cover), Lane(0.0), Lane(1.0));
   const Lane depth = covered * mean(sums.depth, sums.cover);
   cells.store(m.depth, larger(cells.load(m.depth), depth));
   const auto wet = Lane(m.wet) < depth;
-  if (!any(wet)) return 0;
+  if (!any(wet)) return extent_of(cells, Lane(0.0));
   const Lane speed = select(wet, mean(root(dot(sums.flow, sums.flow)), sums.cover), Lane(0.0));
   cells.store(m.speed, larger(cells.load(m.speed), speed));
   cells.store(m.depth_speed, larger(cells.load(m.depth_speed), depth * speed));
   const Lane arrival = cells.load(m.arrival);
   cells.store(m.arrival, select(wet, select(arrival < Lane(0.0), Lane(t), arrival), arrival));
   cells.store(m.last_wet, select(wet, Lane(t), cells.load(m.last_wet)));
-  const Lane marks = select(wet, Lane(1.0), Lane(0.0));
-  int count = 0;
-  for (int l = 0; l < cells.count; ++l)
-    if (lane_of(marks, l) > 0) {
-      if (count++ == 0) first = l;
-      last = l;
-    }
-  return count;
+  return extent_of(cells, select(wet, Lane(1.0), Lane(0.0)));
 }
 
 }  // namespace
 
 template <int D>
 Front track_maxima(const CellGrid& grid, const SortedWater<D>& water, double t, const Maxima& maxima) {
-  const Packs packs = packs_near(grid, water.rows);
+  const Blocks blocks = blocks_near<D>(grid, water.rows);
   const SortedWater<D> w = water;
   const Maxima m = maxima;
   int count = 0, i_low = grid.nx, i_high = -1, j_low = grid.ny, j_high = -1;
   Kokkos::parallel_reduce(
-      "raster::maxima", Dynamic(0, packs.count()),
-      KOKKOS_LAMBDA(int pack, int& wet, int& west, int& east, int& south, int& north) {
-        const int i = packs.i0 + pack % packs.across * lanes, j = packs.j0 + pack / packs.across;
-        const Cover<D> sums = gather_water(w, grid, i, j);
+      "raster::maxima", Dynamic(0, blocks.count()),
+      KOKKOS_LAMBDA(int k, int& wet, int& west, int& east, int& south, int& north) {
+        const Block<D> cells = block_at<D>(grid, blocks, k);
+        const Cover<D> sums = gather_water(w, grid, cells);
         if (!any(Lane(edge_cover) < sums.cover)) return;
-        int first = 0, last = 0;
-        const int here = take(m, cells_of(grid, i, j), sums, t, first, last);
-        if (here == 0) return;
-        wet += here;
-        west = smaller(west, i + first), east = larger(east, i + last);
-        south = smaller(south, j), north = larger(north, j);
+        const Wet here = take(m, cells, sums, t);
+        wet += here.count;
+        west = smaller(west, here.west), east = larger(east, here.east);
+        south = smaller(south, here.south), north = larger(north, here.north);
       },
       Kokkos::Sum<int>(count), Kokkos::Min<int>(i_low), Kokkos::Max<int>(i_high), Kokkos::Min<int>(j_low), Kokkos::Max<int>(j_high));
   if (count == 0) return {};

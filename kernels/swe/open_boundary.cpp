@@ -27,17 +27,20 @@ void fill_gaps(std::vector<OpenRow>& rows) {
   }
 }
 
-// The inner state of a row, and its slow mean taken on by dt: over the time that a wave takes to cross `memory`; anew with
-// dt = 0 and on the first water.
+// The inner state of a row, and its slow means taken on by dt: over the time that a wave takes to cross `memory`; anew with
+// dt = 0 and on the first water. What arrives meets a mean inflow so that it ends: u = 0 on the line. Uniform
+// flow inwards would go on by itself, and grow.
 InnerState inner_state(OpenRow& row, double gravity, double least, double memory, double dt) {
   const double depth = row.level - row.bed;
   if (depth <= least) {
-    row.arriving = 0;
+    row.mean_speed = row.mean_celerity = 0;
     return {};
   }
-  const double c = std::sqrt(gravity * depth), now = row.speed + 2 * c;
-  row.arriving = dt == 0 || row.arriving == 0 ? now : row.arriving + (1 - std::exp(-c * dt / memory)) * (now - row.arriving);
-  return {depth, row.speed, row.arriving};
+  const double c = std::sqrt(gravity * depth);
+  const double part = dt == 0 || row.mean_celerity == 0 ? 1 : 1 - std::exp(-c * dt / memory);
+  row.mean_speed += part * (row.speed - row.mean_speed);
+  row.mean_celerity += part * (c - row.mean_celerity);
+  return {depth, row.speed, 2 * row.mean_celerity - std::abs(row.mean_speed)};
 }
 
 // Share of the discharge of each row; empty where nothing is to be shared.
@@ -178,8 +181,8 @@ namespace {
 // The doubles of a row's state, in order; visit(double&) each.
 template <class Row, class Visit>
 void each_value(Row& row, const Visit& visit) {
-  for (auto* value : {&row.bed, &row.level, &row.speed, &row.slip, &row.still, &row.depth, &row.inward, &row.along, &row.arriving,
-                      &row.through})
+  for (auto* value : {&row.bed, &row.level, &row.speed, &row.slip, &row.still, &row.depth, &row.inward, &row.along, &row.mean_speed,
+                      &row.mean_celerity, &row.through})
     visit(*value);
 }
 

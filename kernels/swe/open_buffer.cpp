@@ -3,40 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/swe/open_exterior.hpp"
+
 namespace freshet::swe {
 namespace {
 
 // Columns of boundary particles: the support and two more.
 double columns(const OpenBufferOptions& o) { return std::max(5.0, std::ceil(o.support * o.eta) + 2); }
 constexpr double most_wedge = 4;  // x the buffer's depth: sharper mitres are cut off
-
-template <int D>
-KOKKOS_FORCEINLINE_FUNCTION double bed_at(const std::optional<Bed<D>>& bed, const Vec<double, D>& x) {
-  return bed ? bed->spline.at(x).b : 0.0;
-}
-
-// What a boundary particle takes from its row.
-template <int D>
-struct Exterior {
-  std::optional<Bed<D>> bed;
-  std::optional<Friction> friction;
-  double least;  // m
-
-  // Depth: the row's level over the bed beyond the line, so that still water stays still there, falling along the flow with
-  // the slope of friction, so that uniform flow stays uniform; within four fifths of the depth on the line.
-  KOKKOS_INLINE_FUNCTION double depth(const OpenRow& row, const Vec<double, D>& x, double inside) const {
-    double d = row.depth + row.bed - bed_at<D>(bed, x);
-    if (friction) {
-      const double u = row.inward;
-      const double fall = friction->drag(larger(row.depth, least)) / friction->gravity * u * larger(u, -u);
-      d -= clamp(fall * inside, -0.2 * row.depth, 0.2 * row.depth);
-    }
-    return larger(larger(d, 0.2 * row.depth), least);
-  }
-  static KOKKOS_INLINE_FUNCTION Vec<double, D> velocity(const OpenRow& row, const OpenLine<D>& line) {
-    return row.inward * line.inward + row.along * line.tangent;
-  }
-};
 
 // Rows beyond an end that a widening buffer needs.
 int wedge_rows(double spread, double buffer, double width) {
@@ -116,8 +90,10 @@ void OpenBuffer<D>::observe(const Rows& rows, const Particles<D>& p, const Field
   const std::optional<Bed<D>> ground = bed;
   const Particles<D> f = p;
   const double summed = options_.summed;
+  const std::optional<Friction> friction = options_.friction;
   Kokkos::parallel_for("open::observe", Range(before_, before_ + count_), KOKKOS_LAMBDA(int r) {
         const Vec<double, D> here = at_line.point(r, 0);
+        const double bed_on_line = row(r).bed;
         double y = 0;
         if constexpr (D == 2) y = here.y;
         const double far = Kernel<D>::support * rows.largest_h(here.x, here.x, y, y);
@@ -128,9 +104,13 @@ void OpenBuffer<D>::observe(const Rows& rows, const Particles<D>& p, const Field
             const Vec<double, D> d = at(f.x, j) - here;
             const double w = f.m(j) / f.rho(j) * power<D>(f.inv_h(j)) * Kernel<D>::at(root(dot(d, d)) * f.inv_h(j)).w;
             weight += w;
-            level += w * (f.rho(j) / summed + bed_at<D>(ground, at(f.x, j)));
-            speed += w * dot(at(f.v, j), at_line.line.inward);
-            slip += w * dot(at(f.v, j), at_line.line.tangent);
+            const Vec<double, D> there = at(f.x, j), v = at(f.v, j);
+            const double u = dot(v, at_line.line.inward), depth = f.rho(j) / summed, b = bed_at<D>(ground, there);
+            // Where it flows in, a fall would answer each particle that enters.
+            const double out = smaller(u, 0.0), lower = fall<D>(friction, depth, out, {there, at_line.inside(there), bed_on_line - b});
+            level += w * (depth + b + lower);
+            speed += w * u;
+            slip += w * dot(v, at_line.line.tangent);
           }
         });
         row(r).wet = weight > 0;
@@ -179,6 +159,7 @@ Crossed OpenBuffer<D>::convert(FieldSet& particles, const Particles<D>& p, const
         if (leaves) {
           kind(i) = owner;
           in_out[1] = f.m(i);
+          f.kh(i) = f.rho(i) * power<D>(f.h(i));  // goes on from its h, also where that was at a bound
         }
         const double rho = summed * exterior.depth(state, x, inside);
         f.m(i) *= rho / f.rho(i);  // the particle keeps its area, and with it h

@@ -38,7 +38,7 @@ struct OpenRow {
   double level = 0, speed = 0, slip = 0;     // inner state: level [m], velocity inwards and along [m/s]
   double still = 0;                          // m, level of the water at rest
   double depth = 0, inward = 0, along = 0;   // exterior state: depth [m], velocity inwards and along [m/s]
-  double arriving = 0;                       // m/s, slow mean of the invariant u + 2 c of the inner state
+  double mean_speed = 0, mean_celerity = 0;  // m/s, slow means of u and c of the inner state
   double through = 0;                        // m2/s, inward flow per width: across the line
   int wet = 0;                               // whether fluid was observed
   int closed = 0;                            // whether it is a wall for the fluid

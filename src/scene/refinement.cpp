@@ -5,6 +5,8 @@
 namespace freshet::input {
 namespace {
 
+constexpr double relaxation = 10;  // h/c: quick enough to gain resolution, slow enough not to make noise (docs/design.md)
+
 AreaLimit read_area(Table& section, const Scene& scene) {
   AreaLimit limit;
   limit.elsewhere = section.number("area", "spacing^D").positive().optional();
@@ -42,7 +44,7 @@ void read_split(Table& section, Scene& scene) {
   split.into = into.otherwise(line ? 3 : 7);
   split.alpha = section.number("alpha").within(0.2, 1.0).otherwise(line ? 0.9 : 0.92);
   split.eps = section.number("eps").within(0.05, 1.0).otherwise(line && split.into == 2 ? 0.25 : line ? 1.0 / 3 : 0.36);
-  split.relax = section.number("relax", "h/c").at_least(0).otherwise(split.relax);
+  split.relax = section.number("relax", "h/c").at_least(0).otherwise(relaxation);
   split.linear = section.choice<bool>("velocity", {{"same", false}, {"linear", true}}).otherwise(false);
   split.least_depth = section.number("least_depth", "m").at_least(0).otherwise(split.least_depth);
   split.most_particles = section.integer("most_particles").positive().otherwise(split.most_particles);
@@ -55,7 +57,7 @@ void read_merge(Table& section, Scene& scene) {
   Merge merge;
   merge.area = read_area(section, scene);
   merge.reach = section.number("reach", "h").within(0.1, 1.5).otherwise(merge.reach);
-  merge.relax = section.number("relax", "h/c").at_least(0).otherwise(merge.relax);
+  merge.relax = section.number("relax", "h/c").at_least(0).otherwise(relaxation);
   scene.merge = merge;
 }
 

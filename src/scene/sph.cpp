@@ -64,7 +64,8 @@ bool read_sph(Table& section, Scene& scene) {
       section.number("newton_tolerance").within(1e-14, 0.1).otherwise(sph.newton_tolerance);
   // What a density 1.6 times the initial one gives.
   sph.h_floor = section.number("h_floor").within(0, 1).otherwise(std::pow(1.6, -1.0 / dimension));
-  sph.h_cap = section.number("h_cap").at_least(1).otherwise(sph.h_cap);
+  // In 1-D a longer h costs nothing, and water stretches along its only direction: at 3 h0 it could not get thinner than a third.
+  sph.h_cap = section.number("h_cap").at_least(1).otherwise(dimension == 2 ? 3.0 : 30.0);
   read_walls(section, sph);
   const auto acceleration =
       section
