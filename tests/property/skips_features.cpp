@@ -163,7 +163,7 @@ TEST_CASE("skips: dry land around changes neither launches nor results") {
   }
 }
 
-TEST_CASE("skips: the run loop looks at every particle once; recorders that the scene names add their own launch") {
+TEST_CASE("skips: the run loop looks at every particle once, recorders that the scene names add their own launch") {
   const Loop bare = loop_of(drop());
   const auto step = bare_step(1);
   Names expected{step.begin(), step.end()};
