@@ -1,8 +1,19 @@
 // What a fixed place sees of sorted water: for gauges and run-up points. Reads the views on the host.
 #pragma once
+#include <array>
+
 #include "kernels/raster.hpp"
 
 namespace freshet {
+
+// x and, in 2-D, y [m].
+template <int D>
+Vec<double, D> to_vec(const std::array<double, 2>& point) {
+  Vec<double, D> place;
+  place.x = point[0];
+  if constexpr (D == 2) place.y = point[1];
+  return place;
+}
 
 struct SampledDepth {
   double depth = 0;      // m, 0 if no particle reaches the place

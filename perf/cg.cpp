@@ -1,7 +1,6 @@
 // perf_cg [particles]: the free-surface solver's parts from memory: triad, matrix product over stored pairs (SELL-W), a whole CG
 // iteration with Jacobi and with the particle-mesh preconditioner; GB/s modelled, and as a share of the triad measured in the same
 // run. Then iterations and seconds of a solve to 1e-8 by celerity Courant number. Particles: a lattice moved by up to 0.2 dx.
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -10,33 +9,14 @@
 #include "kernels/linear/cg.hpp"
 #include "kernels/linear/pair_product.hpp"
 #include "kernels/linear/particle_mesh.hpp"
+#include "src/run/fastest.hpp"
+#include "src/run/peaks.hpp"
 
 namespace {
 
 using namespace freshet;
 using linear::CgReport;
 using linear::Vector;
-
-template <class Call>
-double fastest(int repeats, const Call& call) {  // s
-  double least = 1e300;
-  for (int n = 0; n < repeats; ++n) {
-    const auto begun = std::chrono::steady_clock::now();
-    call();
-    Exec().fence();
-    least = std::min(least, std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count());
-  }
-  return least;
-}
-
-double triad_bandwidth() {  // B/s
-  constexpr int n = 8'000'000;
-  const Vector a("a", n), b("b", n), c("c", n);
-  const double seconds = fastest(8, [&] {
-    Kokkos::parallel_for("perf::triad", Range(0, n), KOKKOS_LAMBDA(int i) { a(i) = b(i) + 3.0 * c(i); });
-  });
-  return 24.0 * n / seconds;
-}
 
 struct AllSlices {
   KOKKOS_FORCEINLINE_FUNCTION int operator()(int k) const { return k; }
@@ -137,7 +117,7 @@ void print(const char* what, double seconds, double n, double bytes, double tria
 
 void measure(int wanted) {
   System s(wanted);
-  const double n = s.size(), triad = triad_bandwidth();
+  const double n = s.size(), triad = measure_peaks().bytes;
   s.set_courant(20);
   std::printf("%d particles, %.1f entries per row, %d threads; triad %.2f GB/s\n", s.size(), s.entries() / n, thread_count(), 1e-9 * triad);
   const double product_bytes = 12.0 * s.entries() + 40 * n;

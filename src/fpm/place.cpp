@@ -6,6 +6,7 @@
 #include <string>
 
 #include "src/errors.hpp"
+#include "src/scene/random.hpp"
 #include "src/scene/water_region.hpp"
 
 namespace freshet::fpm {
@@ -13,14 +14,6 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double off_outline = 0.6;  // x dx: lattice points closer than this to a slanting outline are left out
-
-// A number of [-1, 1) that depends on the seed and the counter alone (splitmix64).
-double random_offset(int seed, std::uint64_t counter) {
-  std::uint64_t z = static_cast<std::uint64_t>(seed) * 0x632be59bd9b4e019u + (counter + 1) * 0x9e3779b97f4a7c15u;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1;
-}
 
 struct Node {
   Point x;

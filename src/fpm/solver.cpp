@@ -2,11 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "kernels/fpm/area.hpp"
 #include "src/errors.hpp"
 
 namespace freshet::fpm {
+namespace {
+
+std::string unsolved(const linear::BiCgStabReport& solve, double tolerance) {
+  char text[300];
+  std::snprintf(text, sizeof text,
+                "the pressure equation was not solved: residual %.2g of the right side after %d iterations; limit: fpm.tolerance = %.2g\n"
+                "  help: a smaller time.cfl, or look at the start for bodies that overlap",
+                solve.residual, solve.iterations, tolerance);
+  return text;
+}
+
+}  // namespace
 
 // Moved points are managed and sorted; lists, cells and stencils are those of the new places.
 void Solver::step(double, double dt) {
@@ -24,9 +37,7 @@ void Solver::step(double, double dt) {
   const Neighbourhood<2>& around = finder_.find(order_.rows(), flow.x, points_.real("h"), flow.points, period_);
   pressure_ = projection_.advance(around, order_.rows(), flow, Backward(dt, ratio)).poisson;
   if (!pressure_.solve.converged)
-    throw Diverged("the pressure equation was not solved: residual " + std::to_string(pressure_.solve.residual) + " after " +
-                   std::to_string(pressure_.solve.iterations) + " iterations; limit: fpm.tolerance = " +
-                   std::to_string(scene_.fpm->tolerance) + "\n  help: a smaller time.cfl, or look at the start for bodies that overlap");
+    throw Diverged(unsolved(pressure_.solve, scene_.fpm->tolerance));
   report_.pressure_iterations = pressure_.solve.iterations;
   last_dt_ = dt;
 }

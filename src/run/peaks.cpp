@@ -1,24 +1,12 @@
 #include "src/run/peaks.hpp"
 
 #include <algorithm>
-#include <chrono>
 
 #include "cellgrid/pack.hpp"
+#include "src/run/fastest.hpp"
 
 namespace freshet {
 namespace {
-
-template <class Call>
-double fastest(int repeats, const Call& call) {  // s
-  double least = 1e300;
-  for (int n = 0; n < repeats; ++n) {
-    const auto begun = std::chrono::steady_clock::now();
-    call();
-    Exec().fence();
-    least = std::min(least, std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count());
-  }
-  return least;
-}
 
 // Independent chains enough to hide the latency of two units, few enough for the registers.
 constexpr int chains = 16;

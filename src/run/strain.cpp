@@ -77,7 +77,8 @@ std::vector<std::string> EnergyWatch::warnings() const {
   char text[400];
   std::snprintf(text, sizeof text,
                 "the water gained energy, up to %.3g m5/s2 per unit density, largest kinetic energy %.3g; first noticed at t = %.6g s\n"
-                "  help: the results may be worthless: a smaller time.cfl, or a stabilisation (sph.stabilise)",
+                "  help: the results may be worthless: take a shorter time step (time.cfl; sisph: time.dt)\n"
+                "  or a finer water.spacing and compare; sph-swe also has sph.stabilise",
                 gain_, kinetic_, first_);
   return {text};
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "src/errors.hpp"
+#include "src/scene/random.hpp"
 #include "src/scene/water_region.hpp"
 
 namespace freshet {
@@ -29,14 +30,6 @@ Cells cells_along(const Scene& scene, int axis) {
   const double length = scene.domain.high[axis] - scene.domain.low[axis];
   const int n = std::max(1, static_cast<int>(std::lround(length / scene.water.spacing)));
   return {n, scene.domain.low[axis], length / n};
-}
-
-// A number of [-1, 1) that depends on the seed and the counter alone (splitmix64).
-double random_offset(int seed, std::uint64_t counter) {
-  std::uint64_t z = static_cast<std::uint64_t>(seed) * 0x632be59bd9b4e019u + (counter + 1) * 0x9e3779b97f4a7c15u;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1;
 }
 
 // The part of a cell that is in the water and its middle: all or nothing where corners and centre agree.

@@ -3,18 +3,6 @@
 #include "src/sisph/solver.hpp"
 
 namespace freshet::sisph {
-namespace {
-
-template <int D>
-Vec<double, D> to_vec(const Point& p) {
-  Vec<double, D> v;
-  v.x = p[0];
-  if constexpr (D == 2) v.y = p[1];
-  return v;
-}
-
-}  // namespace
-
 template <int D>
 Totals Solver<D>::totals() const {
   Totals totals = passed_;

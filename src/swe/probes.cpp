@@ -1,6 +1,5 @@
 // What the run loop asks of the solver's state: totals, point samples, run-up, restart scalars.
-#include <cmath>
-
+#include "kernels/sampling.hpp"
 #include "src/errors.hpp"
 #include "src/scene/names.hpp"
 #include "src/swe/solver.hpp"
@@ -8,31 +7,14 @@
 namespace freshet::swe {
 namespace {
 
-// sum V W is 1 within the water, 1/2 at a straight wall, 1/4 in a corner, and falls to 0 beyond a dry front: there the mean of the
-// few particles that reach a point would carry their depth up to 2h ahead of the water.
-constexpr double least_cover = 0.25;
-
-template <int D>
-Vec<double, D> to_vec(const Point& p) {
-  Vec<double, D> v;
-  v.x = p[0];
-  if constexpr (D == 2) v.y = p[1];
-  return v;
-}
-
 Names<WallKind> wall_kind_names() {
   return {{"reflection only", WallKind::none}, {"VBP", WallKind::vbp}, {"MVBP", WallKind::mvbp}, {"rows", WallKind::rows},
           {"mirror images", WallKind::mirror}};
 }
 
-// Calls visit(j) for the fluid particles in the runs around a point. The views are read on the host.
-template <int D, class Visit>
-void for_each_fluid_near(const Rows& rows, const Field<int>& kind, const Point& at, double distance, const Visit& visit) {
-  const double y = D == 2 ? at[1] : 0.0;
-  rows.for_each_run(at[0], at[0], y, y, distance, [&](int begin, int end) {
-    for (int j = begin; j < end; ++j)
-      if (kind.extent(0) == 0 || kind(j) == 0) visit(j);
-  });
+template <int D>
+SortedWater<D> sorted_water(const Rows& rows, const Particles<D>& p, const Field<int>& kind) {
+  return {rows, p.x, p.v, p.m, p.rho, p.h, kind};
 }
 
 }  // namespace
@@ -82,37 +64,21 @@ Mechanics Solver<D>::mechanics() const {
 
 template <int D>
 std::vector<PointState> Solver<D>::sample(const std::vector<Point>& points) const {
-  const Particles<D> p = bind();
-  const Field<int> kinds = kind();
-  std::vector<PointState> states(points.size());
-  for (size_t k = 0; k < points.size(); ++k) {
-    const Vec<double, D> at_point = to_vec<D>(points[k]);
-    const double y = D == 2 ? points[k][1] : 0.0;
-    const double far = Kernel<D>::support * order_.rows().largest_h(points[k][0], points[k][0], y, y);
-    double weight = 0, depth = 0;
-    for_each_fluid_near<D>(order_.rows(), kinds, points[k], far, [&](int j) {
-      const Vec<double, D> d = at(p.x, j) - at_point;
-      const double w = p.m(j) / p.rho(j) * power<D>(p.inv_h(j)) * Kernel<D>::at(root(dot(d, d)) * p.inv_h(j)).w;
-      weight += w;
-      depth += w * p.rho(j);
-    });
-    states[k] = {bed_ ? bed_->spline.at(at_point).b : 0.0, depth / larger(weight, least_cover), weight > 0};
+  const SortedWater<D> water = sorted_water<D>(order_.rows(), bind(), kind());
+  std::vector<PointState> states;
+  for (const Point& point : points) {
+    const Vec<double, D> place = to_vec<D>(point);
+    const SampledDepth found = sample_depth(water, place);
+    states.push_back({bed_ ? bed_->spline.at(place).b : 0.0, found.depth, found.reached});
   }
   return states;
 }
 
 template <int D>
 double Solver<D>::highest_wet_bed(const Point& point, double radius, double min_depth) const {
-  const Particles<D> p = bind();
-  const Field<int> kinds = kind();
-  const Vec<double, D> centre = to_vec<D>(point);
   const std::optional<Bed<D>> beds = bed();
-  double highest = -1e300;
-  for_each_fluid_near<D>(order_.rows(), kinds, point, radius, [&](int j) {
-    const Vec<double, D> d = at(p.x, j) - centre;
-    if (p.rho(j) >= min_depth && dot(d, d) <= radius * radius) highest = larger(highest, beds ? beds->level(j) : 0.0);
-  });
-  return highest;
+  return highest_wet_level(sorted_water<D>(order_.rows(), bind(), kind()), beds ? beds->level : Field<double>(), to_vec<D>(point),
+                           radius, min_depth);
 }
 
 template <int D>
