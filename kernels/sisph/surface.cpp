@@ -188,8 +188,10 @@ SurfaceReport FreeSurface<D>::solve(const SliceList& active, const Water<D>& wat
                                     bool drying) {
   const Region region("sisph::free_surface");
   const Norms norms = drying ? find_coefficients<true>(active, water, before, dt) : find_coefficients<false>(active, water, before, dt);
-  constexpr double round_off = 1e-14;  // of |b|
-  if (first_) scale_ = larger(norms.residual, round_off * norms.right + 1e-300);
+  // Asked for no less than round-off of |b|: water at rest needs no iteration.
+  constexpr double round_off = 1e-14;
+  const double least = round_off / smaller(options_.cg_tolerance, options_.newton_tolerance);
+  if (first_) scale_ = larger(norms.residual, least * norms.right + 1e-300);
   first_ = false;
   const double scale = scale_;
   const auto product = [&](const Field<double>& x, const Field<double>& y) {
