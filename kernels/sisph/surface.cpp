@@ -35,7 +35,7 @@ struct Coefficients {
     const Vec<Lane, D> vi = me.load(before);
     const Lane hi = me.load(water.depth), li = larger(me.load(last_depth), Lane(0.0)), bi = me.load(water.bed), eta = me.load(level);
     Lane outflow(0.0), given(0.0), sum_a(0.0), drawn(0.0);
-    g.pairs.for_each(s, [&](int e, LaneIndex j) {
+    g.pairs.for_each(s, [&](int e, PairIndex j) {
       const Lane hj = gather(water.depth.data(), j), lj = larger(gather(last_depth.data(), j), Lane(0.0));
       const Lane bj = drying ? gather(water.bed.data(), j) : Lane(0.0);
       const Lane face = 0.5 * (face_depth<drying>(hi, hj, bi, bj) + face_depth<drying>(li, lj, bi, bj));
@@ -74,7 +74,7 @@ struct LimitOutflow {
     const Lanes me = g.pairs(s);
     const Lane mine = me.load(share), free = free_lanes(g, me);
     Lane outflow(0.0);
-    g.pairs.for_each(s, [&](int e, LaneIndex j) {
+    g.pairs.for_each(s, [&](int e, PairIndex j) {
       const Lane f = PairView::load(flux, e), limited = f * select(Lane(0.0) < f, mine, gather(share.data(), j));
       PairView::store(flux, e, limited);
       outflow += limited;
@@ -115,7 +115,7 @@ struct Residual {
     const Lanes me = g.pairs(s);
     const Lane eta = me.load(level), omega = me.load(g.omega), free = free_lanes(g, me);
     Lane drawn(0.0);
-    g.pairs.for_each(s, [&](int e, LaneIndex j) { drawn += PairView::load(a, e) * (gather(level.data(), j) - eta); });
+    g.pairs.for_each(s, [&](int e, PairIndex j) { drawn += PairView::load(a, e) * (gather(level.data(), j) - eta); });
     const Lane volume = me.load(right) + drawn;
     const Lane r = free * (volume - omega * larger(eta - me.load(bed), Lane(0.0)));
     me.store(depth, select(Lane(0.5) < free, volume / omega, me.load(depth)));
@@ -156,6 +156,7 @@ typename FreeSurface<D>::Norms FreeSurface<D>::find_coefficients(const SliceList
                                                                  const VecField<double, D>& before, double dt) {
   const Coefficients<D, drying> pass{g_, active, water, before, depth_, level_, a_, flux_, right_, residual_, row_sum_,
                                      share_, options_.gravity * options_.theta * options_.theta * dt * dt, dt};
+  g_.images.fill(before);
   const auto sums = sums_.sum<3>("sisph::coefficients", active.count, pass);
   if (!drying || sums[2] == 0) return {std::sqrt(sums[0]), std::sqrt(sums[1])};
   const auto limited = sums_.sum<2>("sisph::limit_outflow", active.count,
