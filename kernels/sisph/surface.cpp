@@ -124,6 +124,24 @@ struct Residual {
   }
 };
 
+// Every row solved for its own level, its neighbours' as they are.
+template <int D>
+struct LevelAlone {
+  Geometry<D> g;
+  SliceList active;
+  Field<double> a, level, bed, right, row_sum, found;
+
+  KOKKOS_FUNCTION void operator()(int k) const {
+    const int s = active(k);
+    const Lanes me = g.pairs(s);
+    const Lane sum = me.load(row_sum), floor = me.load(bed);
+    const Lane excess = me.load(right) + g.pairs.weighted_sum(s, a, level) - sum * floor;  // were its level the bed's
+    const Lane slope = sum + select(Lane(0.0) < excess, me.load(g.omega), Lane(0.0));
+    const auto tied = (Lane(0.0) < sum) & (Lane(0.5) < free_lanes(g, me));
+    me.store(found, select(tied, floor + excess / (slope + 1e-300), me.load(level)));
+  }
+};
+
 }  // namespace
 
 template <int D>
@@ -184,6 +202,22 @@ void FreeSurface<D>::set_diagonal(const SliceList& active, const Water<D>& water
       });
 }
 
+// A film of 1e-20 m that only films touch has a row so small that no tolerance of CG settles its level; kilometres above the bed it
+// would be wet for Newton's method and undo the rest, again and again. This step keeps iterates on the side of the solution where
+// Newton's are, so that their convergence is monotone still.
+template <int D>
+void FreeSurface<D>::level_rows(const SliceList& active, const Water<D>& water) {
+  Kokkos::parallel_for("sisph::level_alone", Range(0, active.count),
+                       LevelAlone<D>{g_, active, a_, level_, water.bed, right_, row_sum_, change_});
+  const PairView pairs = g_.pairs;
+  const Field<double> level = level_, found = change_;
+  const SliceList list = active;
+  Kokkos::parallel_for("sisph::take_level", Range(0, active.count), KOKKOS_LAMBDA(int k) {
+        const Lanes me = pairs(list(k));
+        me.store(level, me.load(found));
+      });
+}
+
 template <int D>
 SurfaceReport FreeSurface<D>::solve(const SliceList& active, const Water<D>& water, const VecField<double, D>& before, double dt,
                                     bool drying) {
@@ -194,7 +228,7 @@ SurfaceReport FreeSurface<D>::solve(const SliceList& active, const Water<D>& wat
   const double least = round_off / smaller(options_.cg_tolerance, options_.newton_tolerance);
   if (first_) scale_ = larger(norms.residual, least * norms.right + 1e-300);
   first_ = false;
-  const double scale = scale_;
+  const double scale = scale_, settled = 2 * options_.newton_tolerance;  // CG's own tolerance and as much again
   const auto product = [&](const Field<double>& x, const Field<double>& y) {
     return sums_.sum<1>("sisph::product", active.count, Product<D>{g_, active, a_, diagonal_, x, y})[0];
   };
@@ -211,7 +245,11 @@ SurfaceReport FreeSurface<D>::solve(const SliceList& active, const Water<D>& wat
     ++report.newton;
     Kokkos::parallel_for("sisph::move_surface", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) { level(i) += change(i); });
     report.residual = find_residual(active, water) / scale;
-    if (report.residual <= 2 * options_.newton_tolerance) return report;  // CG's own tolerance and as much again
+    if (report.residual <= settled) return report;
+    if (!drying) continue;
+    level_rows(active, water);
+    report.residual = find_residual(active, water) / scale;
+    if (report.residual <= settled) return report;
   }
   report.converged = false;
   return report;
