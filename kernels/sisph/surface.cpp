@@ -13,13 +13,14 @@ KOKKOS_FORCEINLINE_FUNCTION double sum_of(const Lanes& me, Lane a) {
 
 // a, f, b, the row sums, the residual of the iterate and the share of its outflow f that a particle has water for; returns the
 // slice's parts of |r|^2 and |b|^2, and how many of its particles would give more than they have.
-template <int D, bool drying>
+template <int D, bool drying, bool dragged>
 struct Coefficients {
   Geometry<D> g;
   SliceList active;
   Water<D> water;
   VecField<double, D> before;
   Field<double> last_depth, level;                 // of the Picard pass before
+  Field<double> drag;                              // dt gamma
   Field<double> a, flux, right, residual, row_sum, share;  // written
   double stiffness, dt;                            // g theta^2 dt^2
 
@@ -34,14 +35,16 @@ struct Coefficients {
     const Lanes me = g.pairs(s);
     const Vec<Lane, D> vi = me.load(before);
     const Lane hi = me.load(water.depth), li = larger(me.load(last_depth), Lane(0.0)), bi = me.load(water.bed), eta = me.load(level);
-    Lane outflow(0.0), given(0.0), sum_a(0.0), drawn(0.0);
+    Lane outflow(0.0), given(0.0), sum_a(0.0), drawn(0.0), drag_i(0.0);
+    if constexpr (dragged) drag_i = me.load(drag);
     g.pairs.for_each(s, [&](int e, PairIndex j) {
       const Lane hj = gather(water.depth.data(), j), lj = larger(gather(last_depth.data(), j), Lane(0.0));
       const Lane bj = drying ? gather(water.bed.data(), j) : Lane(0.0);
       const Lane face = 0.5 * (face_depth<drying>(hi, hj, bi, bj) + face_depth<drying>(li, lj, bi, bj));
       const Lane wet_area = PairView::load(g.area, e) * face;
       const Lane f = wet_area * dot(pair_velocity(vi, gather(before, j), hi + li, hj + lj), PairView::load(g.n, e));
-      const Lane aij = stiffness * wet_area / PairView::load(g.distance, e);
+      Lane aij = stiffness * wet_area / PairView::load(g.distance, e);
+      if constexpr (dragged) aij = aij / (1.0 + 0.5 * (drag_i + gather(drag.data(), j)));
       PairView::store(flux, e, f);
       PairView::store(a, e, aij);
       outflow += f;
@@ -155,6 +158,12 @@ FreeSurface<D>::FreeSurface(const Geometry<D>& g, const SurfaceOptions& options)
 }
 
 template <int D>
+const Field<double>& FreeSurface<D>::make_drag() {
+  if (drag_.extent(0) == 0) drag_ = Field<double>("sisph.drag", static_cast<size_t>(g_.pairs.particles) + lanes);
+  return drag_;
+}
+
+template <int D>
 void FreeSurface<D>::start(const Water<D>& water) {
   const Field<double> level = level_, depth = depth_, residual = residual_, inverse = inverse_, share = share_;
   const Water<D> w = water;
@@ -169,11 +178,11 @@ void FreeSurface<D>::start(const Water<D>& water) {
 }
 
 template <int D>
-template <bool drying>
+template <bool drying, bool dragged>
 typename FreeSurface<D>::Norms FreeSurface<D>::find_coefficients(const SliceList& active, const Water<D>& water,
                                                                  const VecField<double, D>& before, double dt) {
-  const Coefficients<D, drying> pass{g_, active, water, before, depth_, level_, a_, flux_, right_, residual_, row_sum_,
-                                     share_, options_.gravity * options_.theta * options_.theta * dt * dt, dt};
+  const Coefficients<D, drying, dragged> pass{g_, active, water, before, depth_, level_, drag_, a_, flux_, right_, residual_,
+                                              row_sum_, share_, options_.gravity * options_.theta * options_.theta * dt * dt, dt};
   g_.images.fill(before);
   const auto sums = sums_.sum<3>("sisph::coefficients", active.count, pass);
   if (!drying || sums[2] == 0) return {std::sqrt(sums[0]), std::sqrt(sums[1])};
@@ -222,7 +231,11 @@ template <int D>
 SurfaceReport FreeSurface<D>::solve(const SliceList& active, const Water<D>& water, const VecField<double, D>& before, double dt,
                                     bool drying) {
   const Region region("sisph::free_surface");
-  const Norms norms = drying ? find_coefficients<true>(active, water, before, dt) : find_coefficients<false>(active, water, before, dt);
+  const bool dragged = drag_.extent(0) > 0;
+  const Norms norms = drying ? dragged ? find_coefficients<true, true>(active, water, before, dt)
+                                       : find_coefficients<true, false>(active, water, before, dt)
+                      : dragged ? find_coefficients<false, true>(active, water, before, dt)
+                                : find_coefficients<false, false>(active, water, before, dt);
   // Asked for no less than round-off of |b|: water at rest needs no iteration.
   constexpr double round_off = 1e-14;
   const double least = round_off / smaller(options_.cg_tolerance, options_.newton_tolerance);

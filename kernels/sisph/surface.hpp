@@ -46,6 +46,9 @@ class FreeSurface {
  public:
   FreeSurface(const Geometry<D>& g, const SurfaceOptions& options);
 
+  // dt gamma of the friction, per particle (friction.hpp); to be asked for before the first step of a scene with friction.
+  const Field<double>& make_drag();
+
   // Views for the passes around the solve.
   const Field<double>& level() const { return level_; }    // eta as solved for, m: below the bed where dry
   const Field<double>& depth() const { return depth_; }    // from the fluxes, m: may be negative by the solver's residual
@@ -62,7 +65,7 @@ class FreeSurface {
   struct Norms {
     double residual, right;
   };
-  template <bool drying>
+  template <bool drying, bool dragged>
   Norms find_coefficients(const SliceList& active, const Water<D>& water, const VecField<double, D>& before, double dt);
   double find_residual(const SliceList& active, const Water<D>& water);
   void level_rows(const SliceList& active, const Water<D>& water);
@@ -77,6 +80,7 @@ class FreeSurface {
   Field<double> a_, flux_;                                       // per pair
   Field<double> level_, depth_, right_, residual_, change_;      // per particle
   Field<double> row_sum_, diagonal_, inverse_, share_;
+  Field<double> drag_;                                           // empty without friction
 };
 
 }  // namespace freshet::sisph
