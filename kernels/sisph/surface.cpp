@@ -166,13 +166,23 @@ struct LevelAlone {
 }  // namespace
 
 template <int D>
-FreeSurface<D>::FreeSurface(const Geometry<D>& g, const SurfaceOptions& options) : g_(g), options_(options) {
+FreeSurface<D>::FreeSurface(const Geometry<D>& g, const Rows& rows, const SurfaceOptions& options)
+    : g_(g), rows_(rows), options_(options) {
   const size_t pair_values = g.pairs.j.extent(0);
   a_ = Field<double>("sisph.a", pair_values);
   flux_ = Field<double>("sisph.flux", pair_values);
   for (Field<double>* f : {&level_, &depth_, &right_, &residual_, &change_, &row_sum_, &diagonal_, &inverse_, &share_})
     *f = Field<double>("sisph.surface", static_cast<size_t>(g.pairs.particles) + lanes);
   cg_.resize(g.pairs.particles);
+}
+
+template <int D>
+void FreeSurface<D>::set_meshed(bool on) {
+  mesh_on_ = on;
+  if (!on || mesh_) return;
+  mesh_.emplace();
+  mesh_->lay(rows_, g_.x);
+  for (Field<double>* f : {&wet_, &mesh_depth_}) *f = Field<double>("sisph.mesh", static_cast<size_t>(g_.pairs.particles) + lanes);
 }
 
 template <int D>
@@ -230,6 +240,35 @@ void FreeSurface<D>::set_diagonal(const SliceList& active, const Water<D>& water
       });
 }
 
+// The mesh of the rows that are wet; where a_ij vanishes with the water, so does its conductance.
+template <int D>
+void FreeSurface<D>::set_mesh(const SliceList& active, const Water<D>& water, double stiffness) {
+  const Geometry<D> g = g_;
+  const SliceList list = active;
+  const Field<double> level = level_, bed = water.bed, depth = depth_, drag = drag_, wet = wet_, conducts = mesh_depth_;
+  const bool dragged = drag.extent(0) > 0;
+  linear::fill(g_.pairs.particles, 0.0, wet_);
+  Kokkos::parallel_for("sisph::mesh_rows", Range(0, active.count), KOKKOS_LAMBDA(int k) {
+        const Lanes me = g.pairs(list(k));
+        Lane deep = larger(me.load(depth), Lane(0.0));
+        if (dragged) deep = deep / (1.0 + me.load(drag));
+        me.store(wet, free_lanes(g, me) * select(me.load(bed) < me.load(level), me.load(g.omega), Lane(0.0)));
+        me.store(conducts, deep);
+      });
+  mesh_->set(wet_, mesh_depth_, stiffness);
+}
+
+// change := (P + T)^-1 residual; returns the iterations.
+template <int D>
+int FreeSurface<D>::solve_linear(const SliceList& active, const Water<D>& water, const linear::CgOptions& options, double stiffness) {
+  const auto product = [&](const Field<double>& x, const Field<double>& y) {
+    return sums_.sum<1>("sisph::product", active.count, Product<D>{g_, active, a_, diagonal_, x, y})[0];
+  };
+  if (!mesh_on_) return cg_.solve(product, linear::Jacobi{inverse_}, residual_, change_, options).iterations;
+  set_mesh(active, water, stiffness);
+  return cg_.solve(product, linear::JacobiPlus<linear::ParticleMesh<D>>{inverse_, *mesh_}, residual_, change_, options).iterations;
+}
+
 // A film of 1e-20 m that only films touch has a row so small that no tolerance of CG settles its level; kilometres above the bed it
 // would be wet for Newton's method and undo the rest, again and again. This step keeps iterates on the side of the solution where
 // Newton's are, so that their convergence is monotone still.
@@ -259,11 +298,10 @@ SurfaceReport FreeSurface<D>::solve(const SliceList& active, const Water<D>& wat
   constexpr double round_off = 1e-14;
   const double least = round_off / smaller(options_.cg_tolerance, options_.newton_tolerance);
   if (first_) scale_ = larger(norms.residual, least * norms.right + 1e-300);
+  bool first_solve = first_;
   first_ = false;
+  const double stiffness = options_.gravity * options_.theta * options_.theta * dt * dt;
   const double scale = scale_, settled = 2 * options_.newton_tolerance;  // CG's own tolerance and as much again
-  const auto product = [&](const Field<double>& x, const Field<double>& y) {
-    return sums_.sum<1>("sisph::product", active.count, Product<D>{g_, active, a_, diagonal_, x, y})[0];
-  };
   linear::CgOptions cg;
   cg.tolerance = options_.cg_tolerance;
   cg.max_iterations = options_.cg_most;
@@ -273,7 +311,10 @@ SurfaceReport FreeSurface<D>::solve(const SliceList& active, const Water<D>& wat
   const Field<double> level = level_, change = change_;
   for (bool all_wet = true; report.newton < options_.newton_most; all_wet = false) {
     set_diagonal(active, water, all_wet);
-    report.iterations += cg_.solve(product, linear::Jacobi{inverse_}, residual_, change_, cg).iterations;
+    const int iterations = solve_linear(active, water, cg, stiffness);
+    report.iterations += iterations;
+    if (iterations > options_.mesh_from || (mesh_on_ && first_solve)) set_meshed(iterations > options_.mesh_until);
+    first_solve = false;
     ++report.newton;
     Kokkos::parallel_for("sisph::move_surface", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) { level(i) += change(i); });
     report.residual = find_residual(active, water) / scale;

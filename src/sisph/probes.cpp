@@ -51,6 +51,7 @@ template <int D>
 std::vector<std::string> Solver<D>::features() const {
   std::vector<std::string> names{name_in(kernel_names(), scene_.sisph.kernel) + " kernel", "particles at rest",
                                  paths_ ? "velocity along particle paths" : "momentum carried by the mass fluxes"};
+  if (conservative_) names.push_back("conservative pressure");
   if (closure_.iterations > 0)
     names.push_back("pair areas closed in " + std::to_string(closure_.iterations) + " iterations, largest change " +
                     std::to_string(closure_.change));
@@ -70,6 +71,7 @@ ScalarState Solver<D>::scalars() const {
           {"solver", {number(report_.passes), number(report_.solves), number(report_.iterations), number(report_.unsettled),
                       number(report_.newton_max)}}};
   if (open_) state["rim"] = open_->means();
+  state["mesh"] = {surface_->meshed() ? 1.0 : 0.0};
   return state;
 }
 
@@ -83,6 +85,7 @@ void Solver<D>::restore(const ScalarState& state) {
   report_.iterations = static_cast<long>(solver[2]);
   report_.unsettled = static_cast<long>(solver[3]);
   report_.newton_max = static_cast<int>(solver[4]);
+  surface_->set_meshed(state.at("mesh")[0] > 0);
   if (open_) open_->set_means(state.at("rim"));
   measure_speeds();
 }

@@ -196,14 +196,16 @@ void Solver<D>::build_momentum() {
   using Momentum = Sisph::Momentum;
   const int slots = geometry_.images.slots();
   const Sisph& sisph = scene_.sisph;
-  surface_.emplace(geometry_, SurfaceOptions{scene_.gravity, sisph.theta, sisph.cg.tolerance, sisph.newton.tolerance, sisph.cg.most,
-                                             sisph.newton.most});
+  surface_.emplace(geometry_, order_.rows(), SurfaceOptions{scene_.gravity, sisph.theta, sisph.cg.tolerance, sisph.newton.tolerance,
+                                                            sisph.cg.most, sisph.newton.most});
   active_.emplace(geometry_);
   active_->find(particles_.real("depth"), sisph.picard);
   rim_.emplace(geometry_);
   for (VecField<double, D>* v : {&slope_, &explicit_, &carried_, &before_, &end_}) *v = scratch<D>("sisph.velocity", slots);
   push(water().v, 0, carried_);  // for good where all of a slice is held
-  const bool by_fluxes = sisph.momentum == Momentum::mass_flux || (sisph.momentum == Momentum::automatic && active_->drying());
+  conservative_ = sisph.momentum == Momentum::conservative;
+  const bool by_fluxes = conservative_ || sisph.momentum == Momentum::mass_flux ||
+                         (sisph.momentum == Momentum::automatic && active_->drying());
   if (!by_fluxes && active_->drying())
     throw SceneError("sisph.momentum = \"semi-lagrangian\" needs water everywhere, and " + std::to_string(active_->dry()) +
                      " particles are dry\n  help: use \"mass-flux\"");

@@ -60,21 +60,22 @@ void Solver<D>::carry_by_fluxes(double t, double dt) {
   const double g = scene_.gravity, theta = scene_.sisph.theta;
   const bool drying = active_->drying();
   const Water<D> now = water();
-  find_slope(now.depth, drying);
   velocity_gradient(geometry_, active_->list(), now, velocity_gradient_);
   surface_->start(now);
+  find_push(0, drying);
   meet_boundaries(t, dt);
   push(now.v, 0, carried_);
   for (int pass = 0; pass < scene_.sisph.picard; ++pass) {
+    if (conservative_ && pass > 0) find_push(0, drying);  // per mass of the pass before
     push(carried_, (1 - theta) * g * dt, carried_);
     blend(dt);
     solve_surface(dt, drying);
     fluxes_->close_depths(active_->list(), now, *surface_, dt);
     fluxes_->advect(active_->list(), now, *surface_, velocity_gradient_, dt, carried_);
   }
-  push(carried_, (1 - theta) * g * dt, carried_);
-  find_slope(surface_->depth(), drying);
-  push(carried_, theta * g * dt, end_);
+  if (!conservative_) push(carried_, (1 - theta) * g * dt, carried_);
+  find_push(conservative_ ? theta : 1, drying);
+  push(carried_, (conservative_ ? 1 : theta) * g * dt, end_);
   slow_down(end_);
   accept(dt, true);
 }
@@ -83,10 +84,25 @@ void Solver<D>::carry_by_fluxes(double t, double dt) {
 template <int D>
 void Solver<D>::find_slope(const Field<double>& depth, bool drying) {
   surface_gradient(geometry_, active_->list(), depth, level_of_bed_, slope_, drying);
+  extend_slope(depth);
+}
+
+template <int D>
+void Solver<D>::extend_slope(const Field<double>& depth) {
   if (!open_) return;
   TracedWater<D> traced_now = traced();
   traced_now.water.depth = depth;
   open_->extend(traced_now, slope_);
+}
+
+// What pushes the water that the fluxes carry: the surface's gradient at n (theta = 0) or n+1 (1), or the conservative pressure of the
+// level theta per mass of n+1.
+template <int D>
+void Solver<D>::find_push(double theta, bool drying) {
+  const Field<double> now = water().depth, next = surface_->depth();
+  if (!conservative_) return find_slope(theta > 0 ? next : now, drying);
+  conservative_slope(geometry_, active_->list(), {now, next, theta}, level_of_bed_, slope_);
+  extend_slope(theta > 0 ? next : now);
 }
 
 // to = from - impulse grad eta; held particles keep what they have, since their slope is zero.

@@ -9,6 +9,7 @@
 #include "kernels/sampling.hpp"
 #include "kernels/sisph/active.hpp"
 #include "kernels/sisph/closure.hpp"
+#include "kernels/sisph/conservative.hpp"
 #include "kernels/sisph/friction.hpp"
 #include "kernels/sisph/mass_flux.hpp"
 #include "kernels/sisph/open.hpp"
@@ -55,6 +56,8 @@ class Solver : public Method {
   void carry_along_paths(double t, double dt);
   void carry_by_fluxes(double t, double dt);
   void find_slope(const Field<double>& depth, bool drying);
+  void find_push(double theta, bool drying);
+  void extend_slope(const Field<double>& depth);
   void slow_down(const VecField<double, D>& v);
   void push(const VecField<double, D>& from, double impulse, const VecField<double, D>& to);
   void blend(double dt);
@@ -68,6 +71,7 @@ class Solver : public Method {
   AnyKernel<D> kernel_;
   double support_;   // of the kernel, x l
   double cell_ = 0;  // m^D, that a particle covers on average
+  bool conservative_ = false;  // the pressure of the momentum
   int held_ = 0;     // particles beside the domain
   FieldSet particles_;
   RowOrder order_;
