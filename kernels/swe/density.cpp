@@ -1,5 +1,6 @@
 #include "kernels/swe/density.hpp"
 
+#include "cellgrid/balanced.hpp"
 #include "kernels/swe/density_sums.hpp"
 #include "kernels/swe/least_squares.hpp"
 
@@ -30,6 +31,10 @@ struct SolveDensity {
   KOKKOS_INLINE_FUNCTION Lane calibration(const Lanes& me) const {
     return options.calibration.extent(0) > 0 ? me.load(options.calibration) : Lane(1.0);
   }
+
+  // A residual whose square is within the tolerance, with room: the step that follows it squares the error, be it Newton's or,
+  // at a bound, exact. Not where that step crosses a bound.
+  KOKKOS_INLINE_FUNCTION double before_last_step() const { return larger(options.tolerance, 0.5 * root(options.tolerance)); }
 
   // Newton on psi = rho - sum m W(h(rho)) (2.8)-(2.10), its factor held within [1/2, 2]. Where h is at a bound it does not
   // follow rho: alpha = 1 and the root is the sum itself. "Bounded" is decided here, once, by the last evaluation.
@@ -62,7 +67,10 @@ struct SolveDensity {
       const Lane factor = select(Lane(0.5) < held, sum_itself, newton);
       const Lane residual = free * larger(rho - total, total - rho) / rho;
       rho = select(Lane(0.5) < imposed, imposed_rho, rho * clamp(factor, Lane(0.5), Lane(2.0)));
-      if (!any(Lane(options.tolerance) < residual) || turn == most_turns) break;
+      const Lane found = smoothing_length<D>(kh, rho);
+      const Lane bounded_then = select((low < found) & (found < high), Lane(0.0), Lane(1.0));
+      const Lane enough = select(Lane(0.25) < size_of(bounded_then - bounded), Lane(options.tolerance), Lane(before_last_step()));
+      if (!any(enough < residual) || turn == most_turns) break;
       const Lane next = clamp(smoothing_length<D>(kh, rho), low, smaller(high, longest_listed));
       if (!any((next < h) | (h < next)) && !sums.follow_depth(c)) continue;  // a fixed h: the sums are known
       h = next;
@@ -125,7 +133,7 @@ DensityReport solve_density(const AnyKernel<D>& kernel, const ClusterSet& cluste
   double evaluations = 0;
   const auto solve = [&](const auto& k, auto single) {
     using Solve = SolveDensity<D, std::decay_t<decltype(k)>, decltype(single)::value>;
-    Kokkos::parallel_reduce("swe::density", Range(0, clusters.size()), Solve{{k, clusters, near, walls, p}, imposed, options},
+    Kokkos::parallel_reduce("swe::density", balanced(clusters.size()), Solve{{k, clusters, near, walls, p}, imposed, options},
                             evaluations, Kokkos::Max<int>(report.newton_max), report.outgrown, report.capped, report.floored);
   };
   std::visit([&](const auto& k) { p.single.on() ? solve(k, std::true_type{}) : solve(k, std::false_type{}); }, kernel);

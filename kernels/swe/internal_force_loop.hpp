@@ -1,5 +1,6 @@
 // The pair loop of internal_force.hpp.
 #pragma once
+#include "cellgrid/balanced.hpp"
 #include "kernels/swe/force_request.hpp"
 #include "kernels/swe/single.hpp"
 
@@ -171,7 +172,7 @@ void sum_force(const ForceRequest<D>& request) {
   std::visit(
       [&](const auto& k, const auto& stabilise) {
         using Force = InternalForce<D, std::decay_t<decltype(k)>, std::decay_t<decltype(stabilise)>, single>;
-        Kokkos::parallel_for("swe::force", Range(0, request.clusters.size()),
+        Kokkos::parallel_for("swe::force", balanced(request.clusters.size()),
                              Force{k, request.clusters, request.near, request.walls, request.p, stabilise});
       },
       request.kernel, request.stabilisation);
