@@ -3,7 +3,7 @@
 // tau = dt (1 + r) / (1 + 2 r):
 //   q = fitted p, 0 on the surface;  v* = c0 v + c1 v_old + tau (-grad q / rho + nu lap v + f)
 //   lap phi = rho div v* / tau;  walls: n . grad phi = rho n . v* / tau;  surface: phi = -q
-//   v = v* - tau grad phi / rho, at walls held;  p = q + phi
+//   v = v* - tau grad phi / rho, at walls held;  p = q + phi;  filtered: v next to walls and surface towards its fit
 #pragma once
 #include "kernels/fpm/elliptic.hpp"
 #include "kernels/fpm/stencils.hpp"
@@ -69,6 +69,7 @@ class Projection {
   void predict(const Flow& flow, const Backward& time);
   void find_sources(const Flow& flow, const Backward& time);
   void correct(const Flow& flow, const Backward& time);
+  void smooth_edges(const Flow& flow);
   double pressure_scale(const Flow& flow);
 
  private:
