@@ -47,6 +47,8 @@ ProjectionReport Projection::advance(const Neighbourhood<2>& around, const Rows&
     find_rows(flow);
     guess_pressure(flow);
     predict(flow, time);
+    if (rule_.implicit) report.viscosity = diffuse(flow, time);
+    hold_walls(flow);
     find_sources(flow, time);
   }
   {
@@ -76,7 +78,7 @@ void Projection::guess_pressure(const Flow& flow) {
   if (scheme == Scheme::filtered) stencils_.fit(flow.p, flow.q);
   Kokkos::parallel_for("fpm::guess_pressure", Range(0, flow.points), KOKKOS_LAMBDA(int i) {
         if (scheme == Scheme::incremental) flow.q(i) = flow.p(i);
-        if (scheme == Scheme::plain || flow.surface(i)) flow.q(i) = 0;
+        if (scheme == Scheme::plain || scheme == Scheme::projection || flow.surface(i)) flow.q(i) = 0;
         flow.value(i) = -flow.q(i);
         flow.phi(i) = 0;
       });
@@ -84,11 +86,19 @@ void Projection::guess_pressure(const Flow& flow) {
 
 void Projection::predict(const Flow& flow, const Backward& time) {
   const Range clusters(0, stencils_.view().around.clusters.size());
-  if (rule_.viscosity > 0)
+  if (rule_.viscosity > 0 && !rule_.implicit)
     Kokkos::parallel_for("fpm::predict", clusters, Predict<true>{stencils_.view(), rule_, flow, time});
   else
     Kokkos::parallel_for("fpm::predict", clusters, Predict<false>{stencils_.view(), rule_, flow, time});
-  if (rule_.scheme != Scheme::incremental) return;
+}
+
+linear::BiCgStabReport Projection::diffuse(const Flow& flow, const Backward& time) {
+  return viscosity_.solve(stencils_.view(), {flow.kind, flow.surface, flow.normal, rule_.slip}, rule_.viscosity * time.tau, flow.v_star, flow.v);
+}
+
+// The printed schemes'.
+void Projection::hold_walls(const Flow& flow) {
+  if (rule_.scheme != Scheme::incremental && rule_.scheme != Scheme::projection) return;
   Kokkos::parallel_for("fpm::hold_walls", Range(0, flow.points), KOKKOS_LAMBDA(int i) {
         if (is_wall(flow.kind(i))) put(flow.v_star, i, Vec<double, 2>{});
       });
@@ -107,6 +117,7 @@ void Projection::find_sources(const Flow& flow, const Backward& time) {
 void Projection::correct(const Flow& flow, const Backward& time) {
   const StencilView<2> view = stencils_.view();
   const double factor = time.tau / rule_.density;
+  const double spread = rule_.implicit ? rule_.viscosity * time.tau : 0;  // m2: the part of div v* that viscosity took
   const bool slip = rule_.slip;
   Kokkos::parallel_for("fpm::correct", Range(0, view.around.clusters.size()), KOKKOS_LAMBDA(int c) {
         const Lanes me = view.around.clusters(c);
@@ -118,7 +129,7 @@ void Projection::correct(const Flow& flow, const Backward& time) {
         if (is_wall(flow.kind(i))) v = slip && flow.kind(i) == on_wall ? v - dot(v, n) * n : Vec<double, 2>{};
         put(flow.v_old, i, at(flow.v, i));
         put(flow.v, i, v);
-        flow.p(i) = flow.surface(i) ? 0.0 : flow.q(i) + flow.phi(i);
+        flow.p(i) = flow.surface(i) ? 0.0 : flow.q(i) + flow.phi(i) - spread * flow.source(i);
       });
 }
 
