@@ -93,7 +93,8 @@ void Projection::predict(const Flow& flow, const Backward& time) {
 }
 
 linear::BiCgStabReport Projection::diffuse(const Flow& flow, const Backward& time) {
-  return viscosity_.solve(stencils_.view(), {flow.kind, flow.surface, flow.normal, rule_.slip}, rule_.viscosity * time.tau, flow.v_star, flow.v);
+  return viscosity_.solve(stencils_.view(), {flow.kind, flow.surface, flow.normal, rule_.slip, time.c1 == 0},
+                          rule_.viscosity * time.tau, flow.v_star, flow.v);
 }
 
 // The printed schemes'.
@@ -117,7 +118,6 @@ void Projection::find_sources(const Flow& flow, const Backward& time) {
 void Projection::correct(const Flow& flow, const Backward& time) {
   const StencilView<2> view = stencils_.view();
   const double factor = time.tau / rule_.density;
-  const double spread = rule_.implicit ? rule_.viscosity * time.tau : 0;  // m2: the part of div v* that viscosity took
   const bool slip = rule_.slip;
   Kokkos::parallel_for("fpm::correct", Range(0, view.around.clusters.size()), KOKKOS_LAMBDA(int c) {
         const Lanes me = view.around.clusters(c);
@@ -129,7 +129,7 @@ void Projection::correct(const Flow& flow, const Backward& time) {
         if (is_wall(flow.kind(i))) v = slip && flow.kind(i) == on_wall ? v - dot(v, n) * n : Vec<double, 2>{};
         put(flow.v_old, i, at(flow.v, i));
         put(flow.v, i, v);
-        flow.p(i) = flow.surface(i) ? 0.0 : flow.q(i) + flow.phi(i) - spread * flow.source(i);
+        flow.p(i) = flow.surface(i) ? 0.0 : flow.q(i) + flow.phi(i);
       });
 }
 

@@ -92,7 +92,7 @@ void ImplicitViscosity::set_right_side(const VecField<double, 2>& v, const VecFi
   Kokkos::parallel_for("fpm::viscous_side", Range(0, n), KOKKOS_LAMBDA(int i) {
         const Vec<double, 2> full = at(v, i), normal = at(places.normal, i), across = dot(full, normal) * normal;
         Vec<double, 2> side = per_b(i) * full;
-        if (places.kind(i) != in_fluid && !places.slip) side = across;
+        if (places.kind(i) != in_fluid && !places.slip) side = places.first_step ? full : across;
         else if (places.kind(i) == on_wall) side = across + per_b(i) * (full - across);
         b(i) = side.x, b(n + i) = side.y;
         const bool given = places.kind(i) == in_corner || (places.kind(i) == on_wall && !places.slip);

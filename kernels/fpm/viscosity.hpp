@@ -2,8 +2,9 @@
 //   fluid                v_i - k sum_j l_ij (v_j - v_i) = b_i with the stencils' Laplacian, divided by 1 + k sum_j l_ij
 //   free surface         the fitted polynomial obeys the equation and n . grad v = 0, each with weight 100 (elliptic.hpp); n: into the water
 //   walls that slip      the same along the wall; n . v* = n . b
-//   walls that hold      the velocity along the wall is 0; n . v* = n . b
-// The normal part on walls is free to choose: the pressure's condition there, n . grad phi = rho n . v* / tau, takes it off again.
+//   walls that hold      the velocity along the wall is 0, in the first step b's; n . v* = n . b
+// The normal part on walls is free to choose: the pressure's condition there, n . grad phi = rho n . v* / tau, takes it off again. In the
+// first step, before any pressure is known, v* falls along walls too, or they would brake it and still water would not stay still.
 // Solved by BiCGStab; the rows have ones on the diagonal (Jacobi).
 #pragma once
 #include "kernels/fpm/stencils.hpp"
@@ -17,6 +18,7 @@ struct ViscousPlaces {
   Field<int> kind, surface;     // PointKind; 1 on the free surface
   VecField<double, 2> normal;   // of walls, 0 elsewhere
   bool slip = true;
+  bool first_step = false;
 };
 
 class ImplicitViscosity {
