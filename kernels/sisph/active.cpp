@@ -7,9 +7,10 @@ ActiveSlices<D>::ActiveSlices(const Geometry<D>& g)
     : g_(g), list_{Field<int>("sisph.active", static_cast<size_t>(g.pairs.slices()) + 1), 0},
       near_("sisph.near_water", static_cast<size_t>(g.pairs.slices()) + 1) {}
 
-// Marks are ones written by whoever reaches the slice: which thread comes first does not matter.
+// near: 1 with water, then the support in which it is reached. Whoever reaches a slice writes the same: which thread is first does
+// not matter.
 template <int D>
-void ActiveSlices<D>::find(const Field<double>& depth) {
+void ActiveSlices<D>::find(const Field<double>& depth, int supports) {
   const PairView pairs = g_.pairs;
   const SliceList free = g_.slices, active = list_;
   const Field<int> near = near_;
@@ -21,11 +22,14 @@ void ActiveSlices<D>::find(const Field<double>& depth) {
         near(s) = here < me.count ? 1 : 0;
         dry += here;
       }, dry_);
-  if (dry_ > 0)
+  for (int ring = 1; dry_ > 0 && ring <= supports; ++ring)
     Kokkos::parallel_for("sisph::spread", Range(0, pairs.slices()), KOKKOS_LAMBDA(int s) {
-          if (!(largest(pairs(s).load(h)) > 0)) return;
-          pairs.for_each(s, [&](int, LaneIndex j) {
-            for (int l = 0; l < lanes; ++l) near(lane_of(j, l) / lanes) = 1;
+          if (near(s) != ring) return;
+          pairs.for_each(s, [&](int, PairIndex j) {
+            for (int l = 0; l < lanes; ++l) {
+              int& other = near(lane_of(j.j, l) / lanes);
+              if (other == 0) other = ring + 1;
+            }
           });
         });
   Kokkos::parallel_scan("sisph::list_active", Range(0, free.count), KOKKOS_LAMBDA(int k, int& count, bool last) {

@@ -1,4 +1,4 @@
-// Which slices a step visits: those with water or within a support of water. Water moves no further in one step.
+// Which slices a step visits: those with water or within some supports of water. Water moves one support in each Picard pass.
 #pragma once
 #include "kernels/sisph/geometry.hpp"
 
@@ -10,7 +10,7 @@ class ActiveSlices {
   explicit ActiveSlices(const Geometry<D>& g);
 
   // For the depths [m] at the start of a step.
-  void find(const Field<double>& depth);
+  void find(const Field<double>& depth, int supports);
   const SliceList& list() const { return list_; }
   bool drying() const { return dry_ > 0; }  // some particle is dry
   long dry() const { return dry_; }
@@ -18,7 +18,7 @@ class ActiveSlices {
  private:
   Geometry<D> g_;
   SliceList list_;
-  Field<int> near_;  // per slice: holds water or is near it
+  Field<int> near_;  // per slice: 1 = holds water, n + 1 = within n supports of it, 0 = further away
   int dry_ = 0;
 };
 

@@ -26,7 +26,7 @@ struct Springs {
     const Lanes me = g.pairs(s);
     const Vec<Lane, D> xi = me.load(x);
     Vec<Lane, D> sum;
-    g.pairs.for_each(s, [&](int e, LaneIndex j) {
+    g.pairs.for_each(s, [&](int e, PairIndex j) {
       const Vec<Lane, D> n = PairView::load(g.n, e);
       sum += (PairView::load(g.area, e) * dot(n, xi - gather(x, j))) * n;
     });
@@ -56,7 +56,7 @@ struct Openness {
     Vec<Lane, D> sum;
     Sym<Lane, D> springs;
     Lane total(1e-300);
-    g.pairs.for_each(s, [&](int e, LaneIndex) {
+    g.pairs.for_each(s, [&](int e, PairIndex) {
       const Vec<Lane, D> n = PairView::load(g.n, e);
       const Lane area = PairView::load(g.area, e);
       sum += area * n;
@@ -77,7 +77,7 @@ struct Shift {
 
   KOKKOS_FUNCTION void operator()(int s, double& change, int& negative) const {
     const Vec<Lane, D> li = g.pairs(s).load(lambda);
-    g.pairs.for_each(s, [&](int e, LaneIndex j) {
+    g.pairs.for_each(s, [&](int e, PairIndex j) {
       const Lane area = PairView::load(g.area, e), part = dot(gather(lambda, j) - li, PairView::load(g.n, e));
       PairView::store(g.area, e, area * (1.0 - part));
       const Lane size = select(Lane(0.0) < area, larger(part, -part), Lane(0.0));
@@ -98,7 +98,7 @@ double openness(const Geometry<D>& g, const VecField<double, D>& right, const Ve
 
 template <int D>
 ClosureReport close_areas(const Geometry<D>& g) {
-  const int stride = g.pairs.particles, size = D * stride;
+  const int stride = g.images.slots(), size = D * stride;
   const auto vector = [&](const std::string& label) { return Field<double>(label, static_cast<size_t>(size) + lanes); };
   const Field<double> right = vector("sisph.closure_right"), inverse = vector("sisph.closure_inverse"), lambda = vector("sisph.lambda");
   const Vec<double, D> dimension;
@@ -107,6 +107,7 @@ ClosureReport close_areas(const Geometry<D>& g) {
   if (report.unclosed < closed_already) return report;
   OrderedSums sums;
   const auto springs = [&](const Field<double>& x, const Field<double>& y) {
+    g.images.fill(parts(x, stride, dimension));
     return sums.sum<1>("sisph::springs", g.slices.count, Springs<D>{g, parts(x, stride, dimension), parts(y, stride, dimension)})[0];
   };
   linear::ConjugateGradients cg;
@@ -115,6 +116,7 @@ ClosureReport close_areas(const Geometry<D>& g) {
   options.tolerance = 1e-11;
   options.max_iterations = 20000;
   report.iterations = cg.solve(springs, linear::Jacobi{inverse}, right, lambda, options).iterations;
+  g.images.fill(parts(lambda, stride, dimension));
   int negative = 0;
   Kokkos::parallel_reduce("sisph::close", Range(0, g.pairs.slices()), Shift<D>{g, parts(lambda, stride, dimension)},
                           Kokkos::Max<double>(report.change), Kokkos::Sum<int>(negative));

@@ -28,7 +28,7 @@ struct Measure {
     const Vec<Lane, D> xi = me.load(g.x);
     const Lane hi = me.load(h);
     Lane sum = kernel.at(Lane(0.0)).w / power<D>(hi);
-    g.pairs.for_each(s, [&](int e, LaneIndex j) {
+    g.pairs.for_each(s, [&](int e, PairIndex j) {
       const Vec<Lane, D> d = gather(g.x, j) - xi;
       const Lane r2 = dot(d, d), inv_r = rsqrt(r2 + tiny_square), r = r2 * inv_r;
       const Lane inv_h = 2.0 / (hi + gather(h.data(), j)), norm = power<D>(inv_h);
@@ -51,7 +51,7 @@ struct Moments {
   KOKKOS_FUNCTION void operator()(int s) const {
     const Lanes me = g.pairs(s);
     Sym<Lane, D> sum;
-    g.pairs.for_each(s, [&](int e, LaneIndex j) {
+    g.pairs.for_each(s, [&](int e, PairIndex j) {
       const Lane w = PairView::load(g.weight, e) * gather(g.omega.data(), j) * PairView::load(g.distance, e);
       sum += outer(PairView::load(g.n, e), w);
     });
@@ -68,7 +68,7 @@ struct Areas {
   KOKKOS_FUNCTION void operator()(int s) const {
     const Lanes me = g.pairs(s);
     const Lane omega = me.load(g.omega), per = 1.0 / me.load(g.moment);
-    g.pairs.for_each(s, [&](int e, LaneIndex j) {
+    g.pairs.for_each(s, [&](int e, PairIndex j) {
       const Lane slope = PairView::load(g.weight, e), other = gather(g.omega.data(), j);
       PairView::store(g.area, e, (omega * other) * slope * (per + 1.0 / gather(g.moment.data(), j)));
       PairView::store(g.weight, e, other * slope);
@@ -127,10 +127,12 @@ double lattice_moment(const AnyKernel<D>& kernel, double h, double spacing) {
 template <int D>
 Geometry<D> measure_geometry(int particles, const AnyKernel<D>& kernel, const GeometryRequest<D>& request) {
   Pairs pairs;
-  pairs.build<D>(particles, {request.rows, request.x, request.h, support_of<D>(kernel)});
+  const PairRequest<D> paired{request.rows, request.x, request.h, support_of<D>(kernel)};
+  const Images<D> images = list_wall_pairs<D>(particles, paired, request.walls, pairs);
   const auto field = [&](const std::string& label) { return Field<double>(label, static_cast<size_t>(particles) + lanes); };
   Geometry<D> g{pairs.view(), pairs.template vector_coefficient<D>("sisph.n"), pairs.coefficient("sisph.distance"),
-                pairs.coefficient("sisph.weight"), pairs.coefficient("sisph.area"), request.x, field("sisph.omega"),
+                pairs.coefficient("sisph.weight"), pairs.coefficient("sisph.area"), images,
+                place_images<D>(particles, paired, request.walls, images), field("sisph.omega"),
                 field("sisph.moment"), field("sisph.free"), sym_field<D>("sisph.inverse", static_cast<size_t>(particles) + lanes), {}};
   list_free_slices(g, request.held);
   const Range all(0, g.pairs.slices());

@@ -7,6 +7,8 @@
 #pragma once
 #include "cellgrid/pairs.hpp"
 #include "cellgrid/sums.hpp"
+#include "kernels/sisph/images.hpp"
+#include "kernels/sisph/walls.hpp"
 #include "kernels/smoothing.hpp"
 
 namespace freshet::sisph {
@@ -26,7 +28,8 @@ struct Geometry {
   Field<double> distance;      // per pair, m
   Field<double> weight;        // per pair: omega_j G_ij, 1/m
   Field<double> area;          // per pair: A_ij, m^(D-1)
-  VecField<double, D> x;       // m
+  Images<D> images;            // behind walls; vector fields that pairs read have images.slots() values
+  VecField<double, D> x;       // m, images included
   Field<double> omega;         // m^D
   Field<double> moment;        // s_i
   Field<double> free;          // 1; 0 = held
@@ -42,6 +45,7 @@ struct GeometryRequest {
   Field<int> held;        // > 0: held
   double spacing;         // m, of the lattice
   double cell;            // m^D, that a particle covers on average
+  MirrorWalls<D> walls = {};  // none, or those that images stand behind
 };
 
 // Everything but the closure. Allocates; not for use inside a step.

@@ -15,7 +15,7 @@ struct Smooth {
     const Lanes me = g.pairs(s);
     const Lane eta = me.load(bed) + me.load(depth);
     Vec<Lane, D> sum;
-    g.pairs.for_each(s, [&](int e, LaneIndex j) {
+    g.pairs.for_each(s, [&](int e, PairIndex j) {
       const Lane difference = gather(bed.data(), j) + gather(depth.data(), j) - eta;
       sum += (PairView::load(g.weight, e) * difference) * PairView::load(g.n, e);
     });
@@ -49,7 +49,7 @@ struct Drying {
     Vec<Lane, D> sum, weighted;
     Sym<Lane, D> moment;
     Lane lowest(1e300), deepest(1e-300);
-    g.pairs.for_each(s, [&](int e, LaneIndex j) {
+    g.pairs.for_each(s, [&](int e, PairIndex j) {
       const Lane bj = gather(bed.data(), j), level = bj + larger(gather(depth.data(), j), Lane(0.0));
       const Vec<Lane, D> n = PairView::load(g.n, e);
       const Lane w = PairView::load(g.weight, e), higher = larger(bi, bj), pull = w * (level - eta);
@@ -95,7 +95,7 @@ struct Velocities {
     const Lane hi = me.load(water.depth);
     Vec<Lane, D> of_u, of_v;
     Lane least_share = select(Lane(0.0) < hi, Lane(1.0), Lane(0.0));
-    g.pairs.for_each(s, [&](int e, LaneIndex j) {
+    g.pairs.for_each(s, [&](int e, PairIndex j) {
       const Lane hj = gather(water.depth.data(), j), w = PairView::load(g.weight, e);
       const Vec<Lane, D> n = PairView::load(g.n, e), difference = gather(water.v, j) - vi;
       least_share = smaller(least_share, smaller(hi, hj) / (larger(hi, hj) + 1e-300));
@@ -123,7 +123,9 @@ void surface_gradient(const Geometry<D>& g, const SliceList& active, const Field
 
 template <int D>
 void velocity_gradient(const Geometry<D>& g, const SliceList& active, const Water<D>& water, const VelocityGradient<D>& gradient) {
+  g.images.fill(water.v);
   Kokkos::parallel_for("sisph::velocity_gradient", Range(0, active.count), Velocities<D>{g, active, water, gradient});
+  g.images.fill_gradient(gradient.u, gradient.v);
 }
 
 template void surface_gradient(const Geometry<1>&, const SliceList&, const Field<double>&, const Field<double>&,

@@ -14,7 +14,7 @@ struct Fluxes {
   KOKKOS_FUNCTION void operator()(int k) const {
     const int s = active(k);
     const Lane eta = g.pairs(s).load(level);
-    g.pairs.for_each(s, [&](int e, LaneIndex j) {
+    g.pairs.for_each(s, [&](int e, PairIndex j) {
       const Lane drawn = (per_dt * PairView::load(a, e)) * (gather(level.data(), j) - eta);
       PairView::store(flux, e, PairView::load(flux, e) - drawn);
     });
@@ -33,13 +33,13 @@ struct Depths {
     const int s = active(k);
     const Lanes me = g.pairs(s);
     Lane in(0.0), out(0.0);
-    g.pairs.for_each(s, [&](int e, LaneIndex) {
+    g.pairs.for_each(s, [&](int e, PairIndex) {
       const Lane f = PairView::load(flux, e);
       out += larger(f, Lane(0.0));
       in += larger(-f, Lane(0.0));
     });
     const Lane volume = me.load(g.omega) * me.load(before), free = free_lanes(g, me), has = volume + dt * in;
-    const Lane after = select(Lane(0.5) < free, (has - dt * out) / me.load(g.omega), me.load(before));
+    const Lane after = select(Lane(0.5) < free, (has - dt * out) / me.load(g.omega), me.load(depth));
     me.store(depth, after);
     me.store(share, select((after < Lane(0.0)) & (Lane(0.5) < free), has / (dt * out + 1e-300), Lane(1.0)));
     least = smaller(least, smallest(after));
@@ -55,7 +55,7 @@ struct ScaleOutflow {
   KOKKOS_FUNCTION void operator()(int k) const {
     const int s = active(k);
     const Lane mine = g.pairs(s).load(share);
-    g.pairs.for_each(s, [&](int e, LaneIndex j) {
+    g.pairs.for_each(s, [&](int e, PairIndex j) {
       const Lane f = PairView::load(flux, e);
       PairView::store(flux, e, f * select(Lane(0.0) < f, mine, gather(share.data(), j)));
     });
@@ -105,7 +105,7 @@ struct Advect {
     if constexpr (D == 2) dvi = me.load(gradient.v);
     Lane in(0.0);
     Vec<Lane, D> carried;
-    g.pairs.for_each(s, [&](int e, LaneIndex j) {
+    g.pairs.for_each(s, [&](int e, PairIndex j) {
       const Lane f = PairView::load(flux, e);
       const auto inward = f < Lane(0.0);
       const Lane d = PairView::load(g.distance, e), towards = select(inward, -d, d);

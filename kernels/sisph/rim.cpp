@@ -15,7 +15,7 @@ struct Flow {
     const Lanes me = g.pairs(s);
     const Lane free = free_lanes(g, me), eta = me.load(level);
     Lane in(0.0), out(0.0);
-    g.pairs.for_each(s, [&](int e, LaneIndex j) {
+    g.pairs.for_each(s, [&](int e, PairIndex j) {
       const Lane drawn = (drawn_per_dt * PairView::load(a, e)) * (gather(level.data(), j) - eta);
       const Lane f = (free * (1.0 - gather(g.free.data(), j))) * (PairView::load(flux, e) - drawn);
       in += larger(-f, Lane(0.0));
@@ -36,7 +36,7 @@ Rim<D>::Rim(const Geometry<D>& g) : g_(g), list_{Field<int>("sisph.rim", static_
   Kokkos::parallel_scan("sisph::list_rim", Range(0, g.slices.count), KOKKOS_LAMBDA(int k, int& count, bool last) {
         const int s = geometry.slices(k);
         Lane held(0.0);
-        geometry.pairs.for_each(s, [&](int, LaneIndex j) { held = larger(held, 1.0 - gather(geometry.free.data(), j)); });
+        geometry.pairs.for_each(s, [&](int, PairIndex j) { held = larger(held, 1.0 - gather(geometry.free.data(), j)); });
         if (largest(held) < 0.5) return;
         if (last) rim.list(count) = s;
         ++count;

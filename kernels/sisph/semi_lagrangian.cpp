@@ -56,7 +56,7 @@ struct FitMoments {
     const Lanes me = g.pairs(s);
     Lane sum[n * (n + 1) / 2], nearest(1e300);
     for (Lane& m : sum) m = Lane(0.0);
-    g.pairs.for_each(s, [&](int e, LaneIndex) {
+    g.pairs.for_each(s, [&](int e, PairIndex) {
       const Lane d = PairView::load(g.distance, e), here = select(Lane(0.0) < PairView::load(g.weight, e), Lane(1.0), Lane(0.0));
       const Lane w = here * fit_weight(per_support * d);
       Lane term[n];
@@ -99,7 +99,7 @@ struct Fit {
     Lane sum[fields][n];
     for (auto& row : sum)
       for (Lane& value : row) value = Lane(0.0);
-    g.pairs.for_each(s, [&](int e, LaneIndex j) {
+    g.pairs.for_each(s, [&](int e, PairIndex j) {
       const Lane d = PairView::load(g.distance, e);
       // Padding lies at its own particle: every difference is zero.
       Lane term[n], difference[fields];
@@ -205,6 +205,8 @@ SemiLagrangian<D>::SemiLagrangian(const Geometry<D>& g, const Rows& rows, double
 
 template <int D>
 void SemiLagrangian<D>::fit(const VecField<double, D>& v, const VecField<double, D>& u) {
+  g_.images.fill(v);
+  g_.images.fill(u);
   Kokkos::parallel_for("sisph::fit", Range(0, g_.slices.count),
                        Fit<D>{g_, 1 / spacing_, 1 / support_, stride_, inverse_, v, u, fitted_});
 }

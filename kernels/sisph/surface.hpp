@@ -1,7 +1,8 @@
 // The free surface of one Picard pass (SISPH formulation E, sections 3 and 5 of the method's notes):
 //   V(eta_i) + sum_j a_ij (eta_i - eta_j) = b_i,   V(eta) = omega max(0, eta - bed)                       (Casulli 2009)
 //   a_ij = g theta^2 dt^2 A_ij H_ij / d_ij,  f_ij = A_ij H_ij v_ij . n_ij,  b_i = omega H_i^n - dt sum_j f_ij
-// where some f may be cut so that no particle gives more than it has (b >= 0); solved for increments by Newton's method, all particles wet in its first solve, with Jacobi CG inside. The depth follows
+// where some f may be cut so that no particle gives more than it has (b >= 0); solved for increments by Newton's method, all
+// particles wet in its first solve, with Jacobi CG inside and a nonlinear Jacobi step between two solves. The depth follows
 // from the fluxes F_ij = f_ij - (a_ij / dt)(eta_j - eta_i), which conserve mass to round-off at any tolerance.
 #pragma once
 #include "kernels/linear/cg.hpp"
@@ -64,6 +65,7 @@ class FreeSurface {
   template <bool drying>
   Norms find_coefficients(const SliceList& active, const Water<D>& water, const VecField<double, D>& before, double dt);
   double find_residual(const SliceList& active, const Water<D>& water);
+  void level_rows(const SliceList& active, const Water<D>& water);
   void set_diagonal(const SliceList& active, const Water<D>& water, bool all_wet);
 
   Geometry<D> g_;

@@ -98,10 +98,11 @@ void add_closed(const Polyline& line, Cut& cut) {
 }
 
 // Free ends go on straight.
-Polyline lengthened(Polyline line, double beyond) {
+Polyline lengthened(Polyline line, double beyond, const MirrorWalls<2>::Ends& goes_on) {
   const std::size_t n = line.size();
   const Place first = tangent(line[0], line[1]), last = tangent(line[n - 2], line[n - 1]);
-  for (std::size_t k = 0; k < 2; ++k) line[0][k] -= beyond * first[k], line[n - 1][k] += beyond * last[k];
+  const double before = goes_on(line[0]) ? beyond : 0, behind = goes_on(line[n - 1]) ? beyond : 0;
+  for (std::size_t k = 0; k < 2; ++k) line[0][k] -= before * first[k], line[n - 1][k] += behind * last[k];
   return line;
 }
 
@@ -117,7 +118,7 @@ Field<T> to_device(const std::string& label, const std::vector<T>& values) {
 }  // namespace
 
 template <>
-MirrorWalls<1>::MirrorWalls(const std::vector<Polyline>& lines, double) {
+MirrorWalls<1>::MirrorWalls(const std::vector<Polyline>& lines, double, const Ends&) {
   std::vector<double> places;
   for (const Polyline& line : lines) places.push_back(line[0][0]);
   corners_ = static_cast<int>(places.size());
@@ -125,14 +126,14 @@ MirrorWalls<1>::MirrorWalls(const std::vector<Polyline>& lines, double) {
 }
 
 template <>
-MirrorWalls<2>::MirrorWalls(const std::vector<Polyline>& lines, double beyond) {
+MirrorWalls<2>::MirrorWalls(const std::vector<Polyline>& lines, double beyond, const Ends& goes_on) {
   if (lines.empty()) return;
   Cut cut;
   for (const Polyline& line : joined(lines)) {
     if (line.front() == line.back())
       add_closed(line, cut);
     else
-      add_open(lengthened(line, beyond), cut);
+      add_open(lengthened(line, beyond, goes_on), cut);
   }
   std::vector<int> first{0};
   std::vector<double> ax, ay, tx, ty, length;

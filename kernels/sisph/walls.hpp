@@ -4,10 +4,11 @@
 // (the water inside) also have the image through the corner. Pairs that a wall separates are none.
 #pragma once
 #include <array>
+#include <functional>
 #include <vector>
 
-#include "cellgrid/pack.hpp"
-#include "cellgrid/vec.hpp"
+#include "cellgrid/pairs.hpp"
+#include "kernels/sisph/images.hpp"
 
 namespace freshet::sisph {
 
@@ -18,8 +19,9 @@ template <int D>
 class MirrorWalls {
  public:
   MirrorWalls() = default;  // no walls
-  // Ends that meet no other wall go on straight for `beyond` [m]: openings begin there.
-  MirrorWalls(const std::vector<Polyline>& lines, double beyond);
+  // Ends that meet no other wall go on straight for `beyond` [m] where goes_on(end): sides of the domain, where openings begin.
+  using Ends = std::function<bool(const std::array<double, 2>&)>;
+  MirrorWalls(const std::vector<Polyline>& lines, double beyond, const Ends& goes_on = [](const auto&) { return true; });
 
   KOKKOS_FORCEINLINE_FUNCTION bool given() const { return chains_ > 0 || corners_ > 0; }
   int slanting_corners() const { return slanting_; }  // corners with the water inside that are not right ones: no image through them
@@ -48,6 +50,14 @@ class MirrorWalls {
   Field<int> open_;                      // of chains: 1 = its ends are ends, 0 = closed
   Field<double> corner_;                 // x, y, and both normals: six values each; 1-D: x
 };
+
+// Lists the pairs of all particles, those with images included, and finds the images' sources and reflections.
+template <int D>
+Images<D> list_wall_pairs(int particles, const PairRequest<D>& request, const MirrorWalls<D>& walls, Pairs& pairs);
+
+// The places of particles and, behind them, of their images; the request's own where there are none.
+template <int D>
+VecField<double, D> place_images(int particles, const PairRequest<D>& request, const MirrorWalls<D>& walls, const Images<D>& images);
 
 namespace detail {
 KOKKOS_FORCEINLINE_FUNCTION double second(const Vec<double, 1>&) { return 0; }

@@ -1,5 +1,6 @@
 #include "kernels/swe/density.hpp"
 
+#include "cellgrid/balanced.hpp"
 #include "kernels/swe/least_squares.hpp"
 
 namespace freshet::swe {
@@ -172,6 +173,10 @@ struct SolveDensity {
     return options.calibration.extent(0) > 0 ? me.load(options.calibration) : Lane(1.0);
   }
 
+  // A residual whose square is within the tolerance, with room: the step that follows it squares the error, be it Newton's or,
+  // at a bound, exact. Not where that step crosses a bound.
+  KOKKOS_INLINE_FUNCTION double before_last_step() const { return larger(options.tolerance, 0.5 * root(options.tolerance)); }
+
   // Newton on psi = rho - sum m W(h(rho)) (2.8)-(2.10), its factor held within [1/2, 2]. Where h is at a bound it does not
   // follow rho: alpha = 1 and the root is the sum itself. "Bounded" is decided here, once, by the last evaluation.
   KOKKOS_INLINE_FUNCTION void operator()(int c, double& evaluations, int& most, int& outgrown, int& capped, int& floored) const {
@@ -203,7 +208,10 @@ struct SolveDensity {
       const Lane factor = select(Lane(0.5) < held, sum_itself, newton);
       const Lane residual = free * larger(rho - total, total - rho) / rho;
       rho = select(Lane(0.5) < imposed, imposed_rho, rho * clamp(factor, Lane(0.5), Lane(2.0)));
-      if (!any(Lane(options.tolerance) < residual) || turn == most_turns) break;
+      const Lane found = smoothing_length<D>(kh, rho);
+      const Lane bounded_then = select((low < found) & (found < high), Lane(0.0), Lane(1.0));
+      const Lane enough = select(Lane(0.25) < size_of(bounded_then - bounded), Lane(options.tolerance), Lane(before_last_step()));
+      if (!any(enough < residual) || turn == most_turns) break;
       const Lane next = clamp(smoothing_length<D>(kh, rho), low, smaller(high, longest_listed));
       if (!any((next < h) | (h < next)) && !sums.follow_depth(c)) continue;  // a fixed h: the sums are known
       h = next;
@@ -267,7 +275,7 @@ DensityReport solve_density(const AnyKernel<D>& kernel, const ClusterSet& cluste
   std::visit(
       [&](const auto& k) {
         using K = std::decay_t<decltype(k)>;
-        Kokkos::parallel_reduce("swe::density", Range(0, clusters.size()),
+        Kokkos::parallel_reduce("swe::density", balanced(clusters.size()),
                                 SolveDensity<D, K>{{k, clusters, near, walls, p}, imposed, options}, evaluations,
                                 Kokkos::Max<int>(report.newton_max), report.outgrown, report.capped, report.floored);
       },

@@ -1,5 +1,6 @@
 // The loop of internal_force.hpp, compiled once per dimension so that the two sets of variants compile side by side.
 #pragma once
+#include "cellgrid/balanced.hpp"
 #include "kernels/swe/internal_force.hpp"
 
 namespace freshet::swe {
@@ -122,7 +123,7 @@ void internal_force(const AnyKernel<D>& kernel, const ClusterSet& clusters, cons
   std::visit(
       [&](const auto& k, const auto& stabilise) {
         using Force = InternalForce<D, std::decay_t<decltype(k)>, std::decay_t<decltype(stabilise)>>;
-        Kokkos::parallel_for("swe::force", Range(0, clusters.size()), Force{k, clusters, near, walls, p, stabilise});
+        Kokkos::parallel_for("swe::force", balanced(clusters.size()), Force{k, clusters, near, walls, p, stabilise});
       },
       kernel, stabilisation);
 }

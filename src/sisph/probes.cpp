@@ -54,7 +54,8 @@ std::vector<std::string> Solver<D>::features() const {
                     std::to_string(closure_.change));
   if (closure_.negative > 0) names.push_back(std::to_string(closure_.negative) + " pair areas below zero");
   if (bed_) names.push_back("bed");
-  names.push_back("sides held at their state at t = 0");
+  if (geometry_.images.count > 0) names.push_back("walls of mirror pairs");
+  if (held_ > 0) names.push_back("sides held at their state at t = 0");
   return names;
 }
 

@@ -4,6 +4,7 @@
 
 #include "src/errors.hpp"
 #include "src/scene/place.hpp"
+#include "src/scene/water_region.hpp"
 #include "src/sisph/solver.hpp"
 
 namespace freshet::sisph {
@@ -22,7 +23,6 @@ void require(bool holds, const std::string& what) {
 }
 
 void require_known(const Scene& scene) {
-  require(scene.walls.empty(), "walls ([[wall]])");
   require(scene.boundaries.empty(), "open boundaries ([[boundary]])");
   require(!scene.manning, "friction (bed.manning)");
   require(!scene.split && !scene.merge, "splitting and merging ([split], [merge])");
@@ -34,6 +34,8 @@ double cell_width(const Scene& scene, int axis) {
   const double length = scene.domain.high[axis] - scene.domain.low[axis];
   return length / std::max(1.0, std::round(length / scene.water.spacing));
 }
+
+double cell_area(const Scene& scene) { return cell_width(scene, 0) * (scene.domain.dimension == 2 ? cell_width(scene, 1) : 1.0); }
 
 // The scene with room for the rim: cells of a support beyond each side of the domain.
 Scene with_rim(const Scene& scene, double support) {
@@ -54,6 +56,19 @@ bool is_inside(const Domain& domain, const Point& p) {
   return true;
 }
 
+// A place outside the domain before whose side there is a wall.
+bool is_behind_wall(const Scene& scene, const Point& p) {
+  Point side = p;
+  for (int axis = 0; axis < scene.domain.dimension; ++axis)
+    side[axis] = std::clamp(p[axis], scene.domain.low[axis], scene.domain.high[axis]);
+  return std::any_of(scene.walls.begin(), scene.walls.end(), [&](const Wall& wall) {
+    if (scene.domain.dimension == 1) return std::abs(wall.line[0][0] - side[0]) < 0.5 * scene.water.spacing;
+    for (std::size_t k = 0; k + 1 < wall.line.size(); ++k)
+      if (distance(side, wall.line[k], wall.line[k + 1]) < 0.5 * scene.water.spacing) return true;
+    return false;
+  });
+}
+
 template <class F>
 void set_field(const Field<double>& field, const std::vector<Start>& start, const F& value) {
   auto host = Kokkos::create_mirror_view(field);
@@ -72,6 +87,20 @@ VecField<double, 2> scratch<2>(const std::string& label, int n) {
   return {Field<double>(label, static_cast<std::size_t>(n) + lanes), Field<double>(label, static_cast<std::size_t>(n) + lanes)};
 }
 
+// Walls that end at a side of the domain go on beside the rim.
+template <int D>
+MirrorWalls<D> walls_of(const Scene& scene, double support) {
+  std::vector<Polyline> lines;
+  for (const Wall& wall : scene.walls) lines.push_back(wall.line);
+  const Domain& domain = scene.domain;
+  const double dx = scene.water.spacing;
+  return MirrorWalls<D>(lines, (2 * support * scene.sisph.smoothing + 2) * dx, [&](const Point& end) {
+    for (std::size_t axis = 0; axis < 2; ++axis)
+      if (std::abs(end[axis] - domain.low[axis]) < 0.5 * dx || std::abs(end[axis] - domain.high[axis]) < 0.5 * dx) return true;
+    return false;
+  });
+}
+
 VecField<double, 1> vector_field(const FieldSet& f, const char* x, const char*, Vec<double, 1>) { return {f.real(x)}; }
 VecField<double, 2> vector_field(const FieldSet& f, const char* x, const char* y, Vec<double, 2>) { return {f.real(x), f.real(y)}; }
 
@@ -88,8 +117,10 @@ void Solver<D>::place_particles() {
     bed_.emplace(scene_.bed.elevation, typename BedSpline<D>::Lattice{wider.domain.low, wider.domain.high, spacing, scene_.bed.filter});
   }
   std::vector<Start> start;
-  double deepest = 0;
-  for (const Placed& p : place(wider, [](double, double) { return 1.0; })) {
+  const double whole = scene_.sisph.smoothing * (D == 2 ? std::sqrt(cell_area(scene_)) : cell_area(scene_));  // beside walls, too
+  double deepest = 0, covered = 0;
+  int inside = 0;
+  for (Placed& p : place(wider, [](double, double) { return 1.0; })) {
     Vec<double, D> place;
     place.x = p.x[0];
     if constexpr (D == 2) place.y = p.x[1];
@@ -97,10 +128,16 @@ void Solver<D>::place_particles() {
     const double depth = scene_.water.surface ? scene_.water.surface(p.x[0], p.x[1]) - bed : scene_.water.depth(p.x[0], p.x[1]);
     if (!std::isfinite(depth)) throw SceneError("water: the depth at (" + std::to_string(p.x[0]) + ", " + std::to_string(p.x[1]) +
                                                 ") m is not a finite number; check the expressions of [water] and [bed] there");
-    start.push_back({p, depth, bed, !is_inside(scene_.domain, p.x)});
+    const bool held = !is_inside(scene_.domain, p.x);
+    if (held && is_behind_wall(scene_, p.x)) continue;
+    if (!held) covered += p.area, ++inside;
+    p.h0 = whole;
+    start.push_back({p, depth, bed, held});
     deepest = std::max(deepest, depth);
   }
   if (!(deepest > 0)) throw SceneError("water: no particle is wet: check [water] and [bed]");
+  cell_ = covered / inside;
+  held_ = static_cast<int>(start.size()) - inside;
   const double least = std::max(scene_.water.wet_above, rounding * deepest);
   for (Start& s : start) s.depth = s.depth > least ? s.depth : 0.0;
   particles_ = FieldSet(static_cast<int>(start.size()));
@@ -145,9 +182,13 @@ void Solver<D>::build_geometry() {
   const Field<double> h = particles_.real("h");
   order_.measure_reach(particles_, h, support_);
   const int n = particles_.size();
-  const double cell = cell_width(scene_, 0) * (D == 2 ? cell_width(scene_, 1) : 1.0);
   const VecField<double, D> x = vector_field(particles_, "x", "y", Vec<double, D>{});
-  geometry_ = measure_geometry<D>(n, kernel_, {order_.rows(), x, h, particles_.integer("kind"), scene_.water.spacing, cell});
+  geometry_ = measure_geometry<D>(n, kernel_, {order_.rows(), x, h, particles_.integer("kind"), scene_.water.spacing, cell_,
+                                               walls_of<D>(scene_, support_)});
+  if (geometry_.images.count > 0) {  // room for their vectors
+    particles_.resize(geometry_.images.slots() + lanes);
+    particles_.resize(n);
+  }
   if (scene_.sisph.closure) closure_ = close_areas(geometry_);
   level_of_bed_ = bed_ ? particles_.real("bed") : Field<double>("sisph.flat_bed", static_cast<std::size_t>(n) + lanes);
   const Field<double> mass = particles_.real("mass"), depth = particles_.real("depth"), omega = geometry_.omega;
@@ -157,14 +198,14 @@ void Solver<D>::build_geometry() {
 template <int D>
 void Solver<D>::build_momentum() {
   using Momentum = Sisph::Momentum;
-  const int n = particles_.size();
+  const int slots = geometry_.images.slots();
   const Sisph& sisph = scene_.sisph;
   surface_.emplace(geometry_, SurfaceOptions{scene_.gravity, sisph.theta, sisph.cg.tolerance, sisph.newton.tolerance, sisph.cg.most,
                                              sisph.newton.most});
   active_.emplace(geometry_);
-  active_->find(particles_.real("depth"));
+  active_->find(particles_.real("depth"), sisph.picard);
   rim_.emplace(geometry_);
-  for (VecField<double, D>* v : {&slope_, &explicit_, &carried_, &before_, &end_}) *v = scratch<D>("sisph.velocity", n);
+  for (VecField<double, D>* v : {&slope_, &explicit_, &carried_, &before_, &end_}) *v = scratch<D>("sisph.velocity", slots);
   push(water().v, 0, carried_);  // for good where all of a slice is held
   const bool by_fluxes = sisph.momentum == Momentum::mass_flux || (sisph.momentum == Momentum::automatic && active_->drying());
   if (!by_fluxes && active_->drying())
@@ -172,8 +213,8 @@ void Solver<D>::build_momentum() {
                      " particles are dry\n  help: use \"mass-flux\"");
   if (by_fluxes) {
     fluxes_.emplace(geometry_);
-    velocity_gradient_.u = scratch<D>("sisph.grad_u", n);
-    if (D == 2) velocity_gradient_.v = scratch<D>("sisph.grad_v", n);
+    velocity_gradient_.u = scratch<D>("sisph.grad_u", slots);
+    if (D == 2) velocity_gradient_.v = scratch<D>("sisph.grad_v", slots);
   } else {
     paths_.emplace(geometry_, order_.rows(), scene_.water.spacing, support_ * sisph.smoothing * scene_.water.spacing);
   }

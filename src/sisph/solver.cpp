@@ -19,7 +19,7 @@ Solver<D>::Solver(const Scene& scene)
 
 template <int D>
 void Solver<D>::step(double, double dt) {
-  active_->find(water().depth);
+  active_->find(water().depth, scene_.sisph.picard);
   if (paths_)
     carry_along_paths(dt);
   else

@@ -57,7 +57,9 @@ class Solver : public Method {
 
   Scene scene_;
   AnyKernel<D> kernel_;
-  double support_;  // of the kernel, x l
+  double support_;   // of the kernel, x l
+  double cell_ = 0;  // m^D, that a particle covers on average
+  int held_ = 0;     // particles beside the domain
   FieldSet particles_;
   RowOrder order_;
   std::optional<BedSpline<D>> bed_;

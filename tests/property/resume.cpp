@@ -159,6 +159,8 @@ TEST_CASE("semi-implicit runs resume to the bit") {
   check_pieces(wet, make_method, GENERATE(5, 13));
   const Scene drying = read_scene("cases/thacker.toml", {"scene.method=sisph", "water.spacing=250", "time.end=300"});
   check_pieces(drying, make_method, 4);
+  const Scene walled = read_scene("cases/sisph_seiche.toml", {"time.end=0.2"});
+  check_pieces(walled, make_method, 7);
 }
 
 TEST_CASE("a dam break that splits and merges resumes to the bit") {

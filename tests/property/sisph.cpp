@@ -81,6 +81,27 @@ TEST_CASE("sisph: depths never fall below zero where water runs down a dry slope
   CHECK(flow.largest("u") < 10);
 }
 
+TEST_CASE("sisph: a dam break over dry land between walls keeps its water") {
+  const double turned = GENERATE(0.0, 0.5);  // rad
+  Scene scene = sisph_scene(2, {-1.1, -0.1}, {2.3, 2.3}, 0.05);
+  const double c = std::cos(turned), s = std::sin(turned);
+  Wall wall;
+  for (const freshet::Point& p : std::vector<freshet::Point>{{0, 0}, {2, 0}, {2, 1}, {0, 1}, {0, 0}})
+    wall.line.push_back({c * p[0] - s * p[1], s * p[0] + c * p[1]});
+  scene.walls = {wall};
+  scene.water.disorder = 0.2;
+  scene.water.depth = [c, s](double x, double y) { return c * x + s * y < 0.6 ? 0.4 : 0.0; };
+  Flow flow(scene);
+  const double mass = flow.method->totals().mass;
+  flow.run(2);
+  const Totals totals = flow.method->totals();
+  CHECK(totals.inflow == 0);
+  CHECK(totals.outflow == 0);
+  CHECK(std::abs(totals.mass / mass - 1) < 1e-12);
+  CHECK(flow.largest("depth") < 0.45);
+  CHECK(dry_particles(flow) == 0);  // it has come back from the far wall
+}
+
 TEST_CASE("sisph: a large step is stable") {
   for (const double courant : {5.0, 20.0, 50.0}) {
     Scene scene = hump(0.2);

@@ -127,7 +127,7 @@ inline std::vector<Grain> still_water(int dimension, const std::vector<Point>& p
 inline swe::DensityOptions tight(int dimension) {
   swe::DensityOptions options{};
   options.gravity = 9.81;
-  options.tolerance = 1e-13;
+  options.tolerance = 1e-22;  // of the density; alpha is as good as its root
   options.margin = 4;
   options.bounds = {std::pow(1.6, -1.0 / dimension), 3};
   options.gradient = true;

@@ -44,7 +44,7 @@ std::vector<std::vector<int>> counted(const PairView& view) {
   const auto n = static_cast<std::size_t>(view.particles);
   std::vector<std::vector<int>> times(n, std::vector<int>(n, 0));
   for (int s = 0; s < view.slices(); ++s)
-    view.for_each(s, [&](int e, LaneIndex) {
+    view.for_each(s, [&](int e, PairIndex) {
       for (int l = 0; l < lanes; ++l) {
         const int i = view(s).particle(l), j = view.j(PairView::at(e, l));
         if (i != j) ++times[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
@@ -80,7 +80,7 @@ TEST_CASE("the weighted sum over stored pairs equals the dense product", "[pairs
   const auto coefficient = [&](int i, int j) { return i == j ? 0.0 : std::cos(3.0 * p.distance(i, j)); };
   const auto x = p.fields.real("x");
   for (int s = 0; s < view.slices(); ++s)
-    view.for_each(s, [&](int e, LaneIndex) {
+    view.for_each(s, [&](int e, PairIndex) {
       for (int l = 0; l < lanes; ++l) a(PairView::at(e, l)) = coefficient(view(s).particle(l), view.j(PairView::at(e, l)));
     });
   for (int s = 0; s < view.slices(); ++s) view(s).store(y, view.weighted_sum(s, a, x));
