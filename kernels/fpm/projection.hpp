@@ -3,7 +3,7 @@
 // tau = dt (1 + r) / (1 + 2 r):
 //   q = fitted p, 0 on the surface;  v* = c0 v + c1 v_old + tau (-grad q / rho + nu lap v + f)
 //   lap phi = rho div v* / tau;  walls: n . grad phi = rho n . v* / tau;  surface: phi = -q
-//   v = v* - tau grad phi / rho, at walls held;  p = q + phi
+//   v = v* - tau grad phi / rho, at walls held;  p = q + phi;  filtered: v next to walls and surface towards its fit
 // Viscosity taken implicitly: v* = ... + tau nu lap v* (viscosity.hpp). The term - rho nu div v* that (5.8) has in p then is left out: with it
 // still water is not stable (e-fold in 0.15 s at nu = 1 m2/s).
 #pragma once
@@ -76,6 +76,7 @@ class Projection {
   void hold_walls(const Flow& flow);
   void find_sources(const Flow& flow, const Backward& time);
   void correct(const Flow& flow, const Backward& time);
+  void smooth_edges(const Flow& flow);
   double pressure_scale(const Flow& flow);
 
  private:

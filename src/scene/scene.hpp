@@ -191,7 +191,7 @@ struct Fpm {
   double viscosity = 0;    // m2/s, kinematic
   Point force{0, -9.81};   // m/s2
   double support = 3.2;    // h0 / dx
-  double hole = 0.9;       // x dx: an empty circle larger than this gets a point
+  double hole = 0.8;       // x dx: an empty circle larger than this gets a point
   Function grading;        // x dx, the spacing by place: 1 to 4; absent = 1 everywhere
   PressureScheme scheme = PressureScheme::filtered;
   bool implicit_viscosity = false;  // it does not limit the step then

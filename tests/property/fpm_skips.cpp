@@ -37,7 +37,8 @@ const std::vector<std::string> inviscid{"fluid.viscosity=0"}, viscous{"fluid.vis
 TEST_CASE("skips: an incompressible step has the launches of its recipe") {
   Names expected{"fpm::advect",      "fpm::hold",     "fpm::voronoi", "fpm::partners",     "fpm::decide",         "fpm::merged_places", "fpm::new_places",
                  "fpm::hold_velocity", "fpm::list",   "fpm::stencils", "fpm::find_rows",   "fpm::fit",            "fpm::guess_pressure", "fpm::predict",
-                 "fpm::sources",     "fpm::unknowns", "fpm::rows",    "fpm::right_side",   "fpm::correct",        "fpm::new_state"};
+                 "fpm::sources",     "fpm::unknowns", "fpm::rows",    "fpm::right_side",   "fpm::correct",        "fpm::new_state",
+                 "fpm::smooth_edges", "fpm::hold_edges"};
   for (const char* sorted : {"extent", "mark", "keep", "clear", "count", "scan", "place", "settle", "permute", "count_clusters", "cut_clusters"})
     expected.insert(std::string("cellgrid::") + sorted);
   CHECK(labels_of("fpm_still_box", inviscid) == expected);
@@ -55,7 +56,7 @@ TEST_CASE("skips: explicit viscosity adds no launch, the implicit one its own, a
 
 TEST_CASE("skips: the plain scheme fits no pressure, the printed ones hold the walls") {
   const Names bare = labels_of("fpm_still_box", inviscid);
-  CHECK(minus(bare, labels_of("fpm_still_box", {"fluid.viscosity=0", "fpm.scheme=plain"})) == Names{"fpm::fit"});
+  CHECK(minus(bare, labels_of("fpm_still_box", {"fluid.viscosity=0", "fpm.scheme=plain"})) == Names{"fpm::fit", "fpm::smooth_edges", "fpm::hold_edges"});
   CHECK(minus(labels_of("fpm_still_box", {"fluid.viscosity=0", "fpm.scheme=projection"}), bare) == Names{"fpm::hold_walls"});
 }
 
