@@ -15,9 +15,10 @@ using Names = std::set<std::string>;
 // The fourth step's launches but for the iterations of the solvers, whose number is not the scene's.
 Names labels_of(const std::string& scene, const std::vector<std::string>& overrides) {
   test::FlowRun run(scene, overrides);
-  run.steps(3, run.solver.stable_dt());
+  const double dt = run.solver.stable_dt();
+  run.steps(3, dt);
   const test::Recording recording;
-  run.steps(1, run.solver.stable_dt());
+  run.steps(1, dt);
   Names names;
   for (const auto& label : recording.labels())
     if (label.rfind("multigrid::", 0) != 0 && label.rfind("bicgstab::", 0) != 0 && label.rfind("linear::", 0) != 0) names.insert(label);
