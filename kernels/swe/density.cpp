@@ -32,9 +32,9 @@ struct SolveDensity {
     return options.calibration.extent(0) > 0 ? me.load(options.calibration) : Lane(1.0);
   }
 
-  // A residual whose square is within the tolerance, with room: the step that follows it squares the error, be it Newton's or,
-  // at a bound, exact. Not where that step crosses a bound.
-  KOKKOS_INLINE_FUNCTION double before_last_step() const { return larger(options.tolerance, 0.5 * root(options.tolerance)); }
+  // A residual whose square is far within the tolerance: the step that follows it squares the error, be it Newton's or, at a
+  // bound, exact. Not where that step crosses a bound. alpha stays that of the density before, so that its error is of this size.
+  KOKKOS_INLINE_FUNCTION double before_last_step() const { return larger(options.tolerance, 0.07 * root(options.tolerance)); }
 
   // Newton on psi = rho - sum m W(h(rho)) (2.8)-(2.10), its factor held within [1/2, 2]. Where h is at a bound it does not
   // follow rho: alpha = 1 and the root is the sum itself. "Bounded" is decided here, once, by the last evaluation.
