@@ -120,7 +120,10 @@ struct Nearby {
   Field<double> h;
   double half;  // of the support / h
 
-  explicit Nearby(const PairRequest<D>& request) : rows(request.rows), x(request.x), h(request.h), half(0.5 * request.factor) {}
+  // A billionth beyond the support: lattices have pairs at just that distance, and rounding, which differs from one pass's machine
+  // code to another's, would decide which of them are listed.
+  explicit Nearby(const PairRequest<D>& request)
+      : rows(request.rows), x(request.x), h(request.h), half((1 + 1e-9) * 0.5 * request.factor) {}
 
   template <class Put>
   KOKKOS_INLINE_FUNCTION void operator()(int i, const Put& put) const {

@@ -49,12 +49,20 @@ struct Symmetric {
   }
 };
 
-// L D L^T of a symmetric matrix with no negative eigenvalues. A pivot below `least` times its diagonal entry counts as zero: that unknown
-// is left out (its value becomes 0), so that a singular system has a bounded answer; `complete` tells how many were kept (1 = all).
+// Pivots below `least` times their diagonal entry count as zero: the unknown is left out (its value becomes 0). Those of the unknowns from
+// `soft_from` on are raised to `soft` times their diagonal entry: what the system hardly determines is drawn towards 0.
+struct Pivots {
+  double least = 1e-10;
+  int soft_from = 1 << 30;
+  double soft = 0;
+};
+
+// L D L^T of a symmetric matrix with no negative eigenvalues; singular ones have a bounded answer. `complete` tells how many unknowns the
+// matrix determines (1 = all).
 template <class V, int N>
 class Factored {
  public:
-  explicit KOKKOS_FORCEINLINE_FUNCTION Factored(const Symmetric<V, N>& g, double least = 1e-10) : l_(g) {
+  explicit KOKKOS_FORCEINLINE_FUNCTION Factored(const Symmetric<V, N>& g, const Pivots& pivots = {}) : l_(g) {
     V kept{0.0};
     unroll<N>([&](auto i) {
       unroll<i>([&](auto j) {  // l(i, j) holds L D until its row is done
@@ -66,9 +74,11 @@ class Factored {
         pivot -= scaled * l_(i, j);
         l_(i, j) = scaled;
       });
-      const auto sound = V(least) * g(i, i) < pivot;
+      const V least = pivots.least * g(i, i);
+      kept += select(least < pivot, V(1.0), V(0.0));
+      if (i >= pivots.soft_from) pivot = larger(pivot, pivots.soft * g(i, i));
+      const auto sound = least < pivot;
       inverse_[i] = select(sound, V(1.0) / select(sound, pivot, V(1.0)), V(0.0));
-      kept += select(sound, V(1.0), V(0.0));
     });
     complete_ = kept * V(1.0 / N);
   }

@@ -1,5 +1,5 @@
 // Moving least squares over the neighbours of a place (thesis 5.3.1, in the scaled form): basis m = [1, X, Y, X^2/2, XY, Y^2/2], X = x / h
-// (1-D: 3 terms, 3-D: 10), weight exp(-6.25 R^2) for R = r / h < 1. With G = sum w m m^T a linear functional of the fitted polynomial is
+// (1-D: 3 terms, 3-D: 10), weight exp(-7 R^2) for R = r / h < 1 (printed: 6.25). With G = sum w m m^T a linear functional of the fitted polynomial is
 // sum_j w_j (m_j . beta) f_j, G beta = the functional's values on the basis: beta are its factors. Values V: double or pack.
 #pragma once
 #include "cellgrid/vec.hpp"
@@ -34,14 +34,22 @@ KOKKOS_FORCEINLINE_FUNCTION constexpr bool is_pure_second(int term) {
   return D == 1 ? term == 2 : D == 2 ? term == 3 || term == 5 : term == 4 || term == 6 || term == 9;
 }
 
-// exp(-6.25 s) for s = R^2 < 1, else 0; relative error 2e-13. (exp(-t/64))^64 by its series.
+// The wider the weight, the less a gradient sees of waves of two spacings, up to seeing them reversed where stencils are one-sided: in rows
+// next to walls and surfaces a step then multiplies them by more than one.
+constexpr double steepness = 7;
+
+// exp(-steepness s) for s = R^2 < 1, else 0; relative error 2e-13. (exp(-t/128))^128 by its series.
 template <class V>
 KOKKOS_FORCEINLINE_FUNCTION V weight(const V& s) {
-  const V t = (-6.25 / 64) * smaller(s, V(1.0));
+  const V t = (-steepness / 128) * smaller(s, V(1.0));
   V e = 1.0 + t * (1.0 + t * (1.0 / 2 + t * (1.0 / 6 + t * (1.0 / 24 + t * (1.0 / 120 + t * (1.0 / 720 + t * (1.0 / 5040 + t * (1.0 / 40320))))))));
-  unroll<6>([&](auto) { e *= e; });
+  unroll<7>([&](auto) { e *= e; });
   return select(s < V(1.0), e, V(0.0));
 }
+
+// In layers of two rows of points second derivatives across are as good as free: the gradient in one row may take any share of them, and a
+// projection with such gradients multiplies errors by 1e3 to 1e5 in a step. Clouds off jets keep pivots above 0.03 (jitter 0.3 dx, corners).
+constexpr double least_pivot = 1e-10, soft_pivot = 0.01;
 
 // sum w m m^T
 template <class V, int D>
@@ -76,7 +84,7 @@ struct Derivatives {
   V complete;  // share of the unknowns that the neighbours determine; below 1 the others count as zero
 
   KOKKOS_FORCEINLINE_FUNCTION Derivatives(const Moments<V, D>& moments, const V& per_h) {
-    const Factored<V, terms<D> - 1> factored(moments.slopes());
+    const Factored<V, terms<D> - 1> factored(moments.slopes(), {least_pivot, D, soft_pivot});
     complete = factored.complete();
     unroll<D>([&](auto axis) {
       Slopes<V, D> e;
@@ -91,10 +99,10 @@ struct Derivatives {
 
 // Factors of the fitted value at the origin of the basis. Few neighbours: the terms that they do not determine count as zero.
 template <class V, int D>
-KOKKOS_FORCEINLINE_FUNCTION Terms<V, D> value_factors(const Moments<V, D>& moments) {
+KOKKOS_FORCEINLINE_FUNCTION Terms<V, D> value_factors(const Moments<V, D>& moments, const Pivots& pivots = {least_pivot}) {
   Terms<V, D> e;
   unroll<terms<D>>([&](auto k) { e[k] = V(k == 0 ? 1.0 : 0.0); });
-  return Factored<V, terms<D>>(moments.g).solve(e);
+  return Factored<V, terms<D>>(moments.g, pivots).solve(e);
 }
 
 }  // namespace freshet::fpm

@@ -38,6 +38,21 @@ struct Neighbourhood {
       see(j, basis(s), select(Lane(tiny_square) < r2, weight(r2), Lane(0.0)));
     });
   }
+
+  // 1 in lanes with a point nearer than `part` of the support, itself included, that is one of those asked for, else 0.
+  template <class IsOne>
+  KOKKOS_FORCEINLINE_FUNCTION Lane any_near(int c, double part, const IsOne& is_one) const {
+    const Lanes me = clusters(c);
+    const Vec<Lane, D> xi = me.load(x);
+    const Lane far = part * me.load(h), far2 = far * far;
+    Lane yes{0.0};
+    near.for_each(c, [&](int j) {
+      if (!is_one(j)) return;
+      const Vec<Lane, D> d = shortest(broadcast(at(x, j)) - xi, period);
+      yes = select(dot(d, d) < far2, Lane(1.0), yes);
+    });
+    return yes;
+  }
 };
 
 // Makes the lists; keeps its memory from step to step.

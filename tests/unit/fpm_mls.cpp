@@ -86,7 +86,7 @@ Vector by_qr(const Sheet& sheet, const Field<double>& f, int i) {
   for (int j = 0; j < sheet.fields.size(); ++j) {
     const double dx = (sheet.x().x(j) - sheet.x().x(i)) / h, dy = (sheet.x().y(j) - sheet.x().y(i)) / h, r2 = dx * dx + dy * dy;
     if (j == i || r2 >= 1) continue;
-    const double w = std::exp(-3.125 * r2);  // the square root of the weight
+    const double w = std::exp(-3.5 * r2);  // the square root of the weight
     rows.push_back({w * dx, w * dy, w * dx * dx / 2, w * dx * dy, w * dy * dy / 2, w * (f(j) - f(i))});
   }
   Matrix m(rows.size(), 5);
@@ -213,8 +213,8 @@ TEST_CASE("MLS in three dimensions reproduces a quadratic") {
   CHECK(at_centre == Approx(2).epsilon(1e-11));
 }
 
-TEST_CASE("The MLS weight is exp(-6.25 R^2) within the support and zero beyond") {
-  for (double s = 0; s < 1; s += 0.01) CHECK(weight(s) == Approx(std::exp(-6.25 * s)).epsilon(2e-13));
+TEST_CASE("The MLS weight is exp(-7 R^2) within the support and zero beyond") {
+  for (double s = 0; s < 1; s += 0.01) CHECK(weight(s) == Approx(std::exp(-7 * s)).epsilon(2e-13));
   CHECK(weight(1.0) == 0);
   CHECK(weight(1e6) == 0);
 }
@@ -236,7 +236,7 @@ TEST_CASE("Small symmetric systems are solved as by Eigen, in every lane") {
       for (int j = 0; j <= i; ++j) set_lane(g(i, j), l, static_cast<double>(reference[l](i, j)));
     }
   }
-  const Column<Lane, 6> x = Factored<Lane, 6>(g, 1e-14).solve(b);
+  const Column<Lane, 6> x = Factored<Lane, 6>(g, {1e-14}).solve(b);
   for (int l = 0; l < lanes; ++l) {
     const Vector exact = reference[l].fullPivLu().solve(right[l]);
     for (int i = 0; i < 6; ++i) CHECK(lane_of(x[i], l) == Approx(static_cast<double>(exact(i))).epsilon(1e-7));
