@@ -129,3 +129,16 @@ TEST_CASE("sisph: a step launches its own passes and allocates nothing") {
   CHECK(labels.count("sisph::advect") == (dry ? 1 : 0));
   CHECK(labels.count("sisph::trace") == (dry ? 0 : 1));
 }
+
+TEST_CASE("sisph: large steps have the particle mesh, and resuming goes on with it") {
+  Scene scene = hump(0.2);
+  scene.sisph.courant = 50;
+  Flow flow(scene), resumed(scene);
+  flow.many_steps(3);
+  REQUIRE(flow.method->scalars().at("mesh")[0] == 1);
+  for (const auto& f : std::as_const(*flow.method).fields().reals()) Kokkos::deep_copy(resumed.real(f.name.c_str()), f.data);
+  resumed.method->restore(flow.method->scalars());
+  flow.step(0.5);
+  resumed.step(0.5);
+  CHECK(resumed.by_id("depth") == flow.by_id("depth"));
+}
