@@ -2,6 +2,8 @@
 
 #include <type_traits>
 
+#include "cellgrid/balanced.hpp"
+
 namespace freshet {
 
 void ClusterSet::cut(const Rows& rows) {
@@ -56,8 +58,12 @@ struct Lister {
     const Vec<Lane, D> xi = me.load(x);
     const Lane reach_i = reach * me.load(h);
     const Box b = box_of(xi);
-    const double mine = largest(reach_i);
-    const double far = larger(mine, reach * sources.largest_h(b.xlo, b.xhi, b.ylo, b.yhi));
+    const double mine = largest(reach_i), theirs = sources.largest_h(b.xlo, b.xhi, b.ylo, b.yhi);
+    if (theirs == 0 && mine < sources.support) {  // no source within a tile (each has an h of its own, be it tiny)
+      out.length(c) = 0;
+      return;
+    }
+    const double far = larger(mine, reach * theirs);
     int* list = &out.list(c, 0);
     int n = 0;
     const auto near = [&](int j) {
@@ -99,7 +105,7 @@ void NeighbourList::build(const ClusterSet& clusters, const ListRequest<D>& requ
     reserve(clusters.size());
     const Lister<D> lister{clusters, request.x, request.source_x, request.h, request.source_h, request.source_rows,
                            request.factor * (1 + request.margin), view_, slab_};
-    Kokkos::parallel_reduce(label_, Range(0, clusters.size()), lister, Kokkos::Max<int>(longest));
+    Kokkos::parallel_reduce(label_, balanced(clusters.size()), lister, Kokkos::Max<int>(longest));
   } while (longest > slab_);
 }
 

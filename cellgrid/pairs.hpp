@@ -20,6 +20,24 @@ KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 2> gather(const VecField<double, 2>& f, co
   return {gather(f.x.data(), index.slot), gather(f.y.data(), index.slot)};
 }
 
+KOKKOS_FORCEINLINE_FUNCTION void prefetch(const void* address) {
+#if !defined(KOKKOS_ENABLE_CUDA) && !defined(KOKKOS_ENABLE_HIP)
+  __builtin_prefetch(address);
+#else
+  (void)address;
+#endif
+}
+
+// As gather(), of indices in memory: eight loads put together take half the time of a gather (Zen 5).
+KOKKOS_FORCEINLINE_FUNCTION Lane load_each(const double* table, const int* index) {
+#if defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP) || defined(FRESHET_SCALAR)
+  return table[*index];
+#else
+  const double* t = table;
+  return Lane::Vector{t[index[0]], t[index[1]], t[index[2]], t[index[3]], t[index[4]], t[index[5]], t[index[6]], t[index[7]]};
+#endif
+}
+
 // The pairs as the device sees them. A coefficient is a Field with one value per entry and lane (Pairs::coefficient).
 struct PairView {
   int particles = 0;
@@ -66,10 +84,17 @@ struct PairView {
     for (int e = start(slice); e < end; ++e) pair(e, neighbours(e));
   }
 
-  // sum_j a_ij x_j per lane: the off-diagonal part of a matrix product. Padding must hold a = 0.
+  // sum_j a_ij x_j per lane: the off-diagonal part of a matrix product. Padding must hold a = 0. Coefficients and indices are
+  // asked for in time: the hardware does not look beyond the page.
   KOKKOS_FORCEINLINE_FUNCTION Lane weighted_sum(int slice, const Field<double>& a, const Field<double>& x) const {
+    constexpr int ahead = 48;  // entries
     Lane sum(0.0);
-    for_each(slice, [&](int e, PairIndex k) { sum += load(a, e) * gather(x.data(), k); });
+    const int end = start(slice + 1);
+    for (int e = start(slice); e < end; ++e) {
+      prefetch(a.data() + at(e + ahead));
+      prefetch(j.data() + at(e + ahead));
+      sum += load(a, e) * load_each(x.data(), j.data() + at(e));
+    }
     return sum;
   }
 };
@@ -95,7 +120,10 @@ struct Nearby {
   Field<double> h;
   double half;  // of the support / h
 
-  explicit Nearby(const PairRequest<D>& request) : rows(request.rows), x(request.x), h(request.h), half(0.5 * request.factor) {}
+  // A billionth beyond the support: lattices have pairs at just that distance, and rounding, which differs from one pass's machine
+  // code to another's, would decide which of them are listed.
+  explicit Nearby(const PairRequest<D>& request)
+      : rows(request.rows), x(request.x), h(request.h), half((1 + 1e-9) * 0.5 * request.factor) {}
 
   template <class Put>
   KOKKOS_INLINE_FUNCTION void operator()(int i, const Put& put) const {

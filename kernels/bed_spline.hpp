@@ -31,6 +31,24 @@ struct SplineWeights {
   }
 };
 
+// Where the samples of a cluster's particles begin in the table, and their values at an offset from there: loads put together,
+// as sixteen gathers take twice the time (Zen 5).
+KOKKOS_FORCEINLINE_FUNCTION const double* corners_of(const double* table, int first) { return table + first; }
+KOKKOS_FORCEINLINE_FUNCTION double value_at(const double* corner, int offset) { return corner[offset]; }
+#if !defined(KOKKOS_ENABLE_CUDA) && !defined(KOKKOS_ENABLE_HIP) && !defined(FRESHET_SCALAR)
+struct Corners {
+  const double* p[lanes];
+};
+KOKKOS_FORCEINLINE_FUNCTION Corners corners_of(const double* table, LaneIndex first) {
+  Corners c;
+  for (int l = 0; l < lanes; ++l) c.p[l] = table + first[l];
+  return c;
+}
+KOKKOS_FORCEINLINE_FUNCTION Lane value_at(const Corners& c, int k) {
+  return Lane::Vector{c.p[0][k], c.p[1][k], c.p[2][k], c.p[3][k], c.p[4][k], c.p[5][k], c.p[6][k], c.p[7][k]};
+}
+#endif
+
 template <int D>
 class BedSpline {
  public:
@@ -64,8 +82,9 @@ class BedSpline {
     const auto i = first_node((p.x - x0_) * inv_spacing_, nx_);
     const SplineWeights<V> a((p.x - x0_) * inv_spacing_ - to_real(i) - 1.0);
     BedPoint<V, 1> s;
+    const auto corners = corners_of(level_.data(), i);
     for (int k = 0; k < 4; ++k) {
-      const V c = gather(level_.data() + k, i);
+      const V c = value_at(corners, k);
       s.b += a.w[k] * c;
       s.slope.x += a.d[k] * c;
       if constexpr (curved) s.curvature.xx += a.dd[k] * c;
@@ -79,12 +98,12 @@ class BedSpline {
   KOKKOS_FORCEINLINE_FUNCTION BedPoint<V, 2> sample(const Vec<V, 2>& p) const {
     const auto i = first_node((p.x - x0_) * inv_spacing_, nx_), j = first_node((p.y - y0_) * inv_spacing_, ny_);
     const SplineWeights<V> a((p.x - x0_) * inv_spacing_ - to_real(i) - 1.0), b((p.y - y0_) * inv_spacing_ - to_real(j) - 1.0);
-    const auto corner = j * nx_ + i;
+    const auto corners = corners_of(level_.data(), j * nx_ + i);
     BedPoint<V, 2> s;
     for (int l = 0; l < 4; ++l) {
       V row(0.0), row_d(0.0), row_dd(0.0);
       for (int k = 0; k < 4; ++k) {
-        const V c = gather(level_.data() + l * nx_ + k, corner);
+        const V c = value_at(corners, l * nx_ + k);
         row += a.w[k] * c;
         row_d += a.d[k] * c;
         if constexpr (curved) row_dd += a.dd[k] * c;

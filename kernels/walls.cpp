@@ -40,7 +40,11 @@ Walls<D>::Walls(const std::vector<WallLine>& lines, const WallOptions& options, 
   fill(points_.integer("segment", "1", Carry::sort), g.points, [](const WallPoint& w) { return w.segment; });
   number(points_.integer("id", "1", Carry::sort), points_.size());
   order_.sort(points_);
-  order_.measure_reach(points_, points_.real("h", "m", Carry::no), 1.0);
+  // Water alone decides what is near. With tiles of that size (most clusters' reach) water off the walls sees at once that none is.
+  constexpr double next_to_nothing = 1e-6, tile = 4;  // x spacing
+  const Field<double> h = points_.real("h", "m", Carry::no);
+  Kokkos::deep_copy(h, next_to_nothing * options.spacing);
+  order_.measure_reach(points_, h, tile / next_to_nothing);
   segments_ = Kokkos::View<WallSegment*, Memory>("walls.segments", g.segments.size());
   auto host = Kokkos::create_mirror_view(segments_);
   for (size_t k = 0; k < g.segments.size(); ++k) host(k) = g.segments[k];

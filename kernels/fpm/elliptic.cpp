@@ -46,6 +46,7 @@ struct AssembleRows {
     around.for_each(c, [&](int, const Terms<Lane, D>& m, const Lane& w) {
       matrix.set(c, k++, -w * dot(m, beta));
     });
+    matrix.round(c);
   }
 };
 
@@ -53,16 +54,10 @@ struct AssembleRows {
 
 template <int D>
 void Poisson<D>::reserve() {
-  const int n = around_.points, clusters = around_.clusters.size(), longest = around_.near.list.extent_int(1);
+  const int n = around_.points;
   for (auto* v : {&per_source_, &per_flux_, &b_})
     if (v->extent_int(0) < n + lanes) *v = Field<double>("fpm.poisson", static_cast<size_t>(n + n / 2 + lanes));
   if (free_.extent_int(0) < n) free_ = Field<int>("fpm.free", static_cast<size_t>(n + n / 2));
-  if (matrix_.a.extent_int(0) >= clusters && matrix_.a.extent_int(1) >= longest) return;
-  matrix_.a = {};
-  matrix_.single = {};
-  const size_t room = static_cast<size_t>(clusters + clusters / 4), width = static_cast<size_t>(longest), w = static_cast<size_t>(lanes);
-  matrix_.a = decltype(matrix_.a)(Kokkos::ViewAllocateWithoutInitializing("fpm.matrix"), room, width, w);
-  matrix_.single = decltype(matrix_.single)(Kokkos::ViewAllocateWithoutInitializing("fpm.matrix_single"), room, width, w);
 }
 
 template <int D>
@@ -71,9 +66,8 @@ void Poisson<D>::assemble(const Neighbourhood<D>& around, const Rows& rows, cons
   around_ = around;
   places_ = places;
   reserve();
-  matrix_.clusters = around.clusters;
-  matrix_.near = around.near;
-  matrix_.rows = around.points;
+  matrix_.lay_out(around.clusters, around.near, around.points);
+  matrix_.lay_out_rough();
   const Field<int> free = free_, row = places.row;
   const Field<double> h = around.h;
   double reach = 0;

@@ -17,15 +17,16 @@ void reserve(View& view, const char* label, int n) {
 struct Pairing {
   Cloud cloud;
   Field<int> side, surface;
-  double reach, land;  // m
+  double merge, land;  // x spacing
 
   KOKKOS_FORCEINLINE_FUNCTION Closeness of(int i) const { return {cloud.kind(i), side(i), surface(i) == 1, cloud.id(i)}; }
   KOKKOS_FORCEINLINE_FUNCTION Fate fate(int i, int j, double r2) const {
-    return fate_of(cloud.tank, of(i), of(j), r2 < land * land);
+    const double near = land * cloud.spacing_at(i);
+    return fate_of(cloud.tank, of(i), of(j), r2 < near * near);
   }
   KOKKOS_INLINE_FUNCTION Closest closest(int i) const {
     Closest best;
-    cloud.near.for_each(at(cloud.near.x, i), reach, [&](int j, const Vec<double, 2>&, double r2) {
+    cloud.near.for_each(at(cloud.near.x, i), merge * cloud.spacing_at(i), [&](int j, const Vec<double, 2>&, double r2) {
       if (j != i && (fate(i, j, r2) != keep || fate(j, i, r2) != keep)) best.look_at(j, r2, cloud.id(i), cloud.id(j));
     });
     return best;
@@ -33,7 +34,7 @@ struct Pairing {
   KOKKOS_INLINE_FUNCTION bool is_lonely(int i) const {
     if (cloud.kind(i) == in_fluid || surface(i) == 0) return false;
     bool found = false;
-    cloud.near.for_each(at(cloud.near.x, i), lonely * cloud.spacing,
+    cloud.near.for_each(at(cloud.near.x, i), lonely * cloud.spacing_at(i),
                         [&](int j, const Vec<double, 2>&, double) { found = found || cloud.kind(j) == in_fluid; });
     return !found;
   }
@@ -44,7 +45,7 @@ struct Choice {
   Cloud cloud;
   Kokkos::View<Missing*, Memory> missing;
   Field<int> fate;
-  double apart, reach;  // m; reach: how far a place may be from the point that found it
+  double apart, reach;  // x spacing; reach: how far a place may be from the point that found it
 
   KOKKOS_INLINE_FUNCTION bool first(int i, int j) const {
     const Missing &a = missing(i), &b = missing(j);
@@ -54,10 +55,11 @@ struct Choice {
   KOKKOS_INLINE_FUNCTION bool accepted(int i) const {
     if (missing(i).kind == Missing::none || fate(i) != keep) return false;
     bool best = true;
-    cloud.near.for_each(missing(i).x, reach + apart, [&](int j, const Vec<double, 2>&, double) {
+    const double close = apart * cloud.spacing_at(i);
+    cloud.near.for_each(missing(i).x, reach * cloud.spacing_at(i) + close, [&](int j, const Vec<double, 2>&, double) {
       if (j == i || missing(j).kind == Missing::none) return;
       const Vec<double, 2> d = cloud.near.period.shortest(missing(j).x - missing(i).x);
-      if (dot(d, d) < apart * apart && first(j, i)) best = false;
+      if (dot(d, d) < close * close && first(j, i)) best = false;
     });
     return best;
   }
@@ -75,7 +77,8 @@ void Points::make_fields(FieldSet& points) {
 }
 
 Cloud Points::cloud(const FieldSet& points, const RowOrder& order) const {
-  return {{order.rows(), {points.real("x"), points.real("y")}, period_}, points.integer("id"), points.integer("kind"), tank_.view(), rule_.spacing};
+  return {{order.rows(), {points.real("x"), points.real("y")}, period_}, points.integer("id"), points.integer("kind"), tank_.view(), rule_.spacing,
+          points.has("dx") ? points.real("dx") : Field<double>()};
 }
 
 int Points::hold_to_walls(FieldSet& points) {
@@ -98,14 +101,14 @@ int Points::hold_to_walls(FieldSet& points) {
 void Points::choose_partners(const Cloud& cloud, const Field<int>& surface, const Field<int>& side, int n) {
   reserve(partner_, "fpm.partner", n);
   const Field<int> partner = partner_;
-  const Pairing pairing{cloud, side, surface, rule_.merge * rule_.support, rule_.land * rule_.spacing};
+  const Pairing pairing{cloud, side, surface, rule_.merge * rule_.support / rule_.spacing, rule_.land};
   Kokkos::parallel_for("fpm::partners", Range(0, n), KOKKOS_LAMBDA(int i) { partner(i) = pairing.closest(i).partner; });
 }
 
 PointCount Points::decide(const Cloud& cloud, const Field<int>& surface, const Field<int>& side, int n) {
   reserve(fate_, "fpm.fate", n);
   const Field<int> partner = partner_, fate = fate_;
-  const Pairing pairing{cloud, side, surface, rule_.merge * rule_.support, rule_.land * rule_.spacing};
+  const Pairing pairing{cloud, side, surface, rule_.merge * rule_.support / rule_.spacing, rule_.land};
   const Period period = period_;
   PointCount count;
   Kokkos::parallel_reduce("fpm::decide", Range(0, n), KOKKOS_LAMBDA(int i, long& merged, long& removed) {
@@ -125,12 +128,14 @@ PointCount Points::decide(const Cloud& cloud, const Field<int>& surface, const F
 }
 
 int Points::list_places(const Cloud& cloud, const Field<int>& side, int n, int merged) {
-  const Choice choice{cloud, voronoi_.missing(), fate_, rule_.apart * rule_.spacing, 1.5 * rule_.voronoi.surface * rule_.spacing};
+  const Choice choice{cloud, voronoi_.missing(), fate_, rule_.apart, 1.5 * rule_.voronoi.surface};
   reserve(owner_, "fpm.owner", merged + n);
-  for (auto* view : {&where_.x, &where_.y}) reserve(*view, "fpm.where", merged + n);
+  for (auto* view : {&where_.x, &where_.y, &place_h_}) reserve(*view, "fpm.where", merged + n);
   for (auto* view : {&place_kind_, &place_side_}) reserve(*view, "fpm.place", merged + n);
   const Field<int> owner = owner_, fate = fate_, partner = partner_, place_kind = place_kind_, place_side = place_side_;
   const VecField<double, 2> where = where_, x = cloud.near.x;
+  const Field<double> place_h = place_h_;
+  const double support = rule_.support / rule_.spacing;
   const Period period = period_;
   Kokkos::parallel_scan("fpm::merged_places", Range(0, n), KOKKOS_LAMBDA(int i, int& k, bool last) {
         if (fate(i) != move) return;
@@ -138,6 +143,7 @@ int Points::list_places(const Cloud& cloud, const Field<int>& side, int n, int m
           owner(k) = i;
           put(where, k, period.wrap(at(x, i) + 0.5 * period.shortest(at(x, partner(i)) - at(x, i))));
           place_kind(k) = cloud.kind(i), place_side(k) = side(i);
+          place_h(k) = support * cloud.spacing_at(i);
         }
         ++k;
       });
@@ -151,6 +157,7 @@ int Points::list_places(const Cloud& cloud, const Field<int>& side, int n, int m
           put(where, merged + k, m.x);
           place_kind(merged + k) = m.kind == Missing::at_wall ? on_wall : m.kind == Missing::at_corner ? in_corner : in_fluid;
           place_side(merged + k) = m.side;
+          place_h(merged + k) = support * cloud.spacing_at(i);
         }
         ++k;
       }, count);
@@ -223,7 +230,7 @@ PointReport Points::manage(FieldSet& points, RowOrder& order, int& next_id) {
   report.step.inserted = count;
   report.step.landed = landed;
   if (merged + count + report.step.removed > 0) {
-    transfer_.find(here.near, where_, merged + count, rule_.support);
+    transfer_.find(here.near, where_, place_h_, merged + count);
     fill_places(points, merged, count);
     settle_places(points, n, merged, next_id);
     order.sort(points);

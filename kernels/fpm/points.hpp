@@ -14,7 +14,7 @@ namespace freshet::fpm {
 
 struct PointRule {
   double spacing;           // m, dx
-  double support;           // m, h0: of the MLS that new points take their fields from
+  double support;           // m, h0: of the MLS that new points take their fields from; with the spacing where that varies
   double merge = 0.2;       // x support: pairs closer than this are merged
   double land = 0.25;       // x spacing: surface points closer than this to a wall point are taken away
   double apart = 0.8;       // x spacing: of two new points closer than this only one is inserted
@@ -38,7 +38,7 @@ struct PointReport {
   PointCount step;
 };
 
-// Fields of the set: x, y [m], id, and those made here: kind (PointKind), side (of the tank, -1 in the fluid), surface (0, 1).
+// Fields of the set: x, y [m], id, dx [m] where the spacing varies, and those made here: kind (PointKind), side (of the tank, -1 in the fluid), surface (0, 1).
 class Points {
  public:
   Points(const PointRule& rule, const Tank& tank, const Period& period, PointFields carried);
@@ -74,6 +74,7 @@ class Points {
   Field<int> owner_;           // the point that each place copies
   VecField<double, 2> where_;                  // m, places: of merged pairs, then of new points
   Field<int> place_kind_, place_side_;
+  Field<double> place_h_;                      // m
   Field<double> value_;
 };
 

@@ -73,6 +73,8 @@ ProjectionReport Projection::advance(const Neighbourhood<2>& around, const Rows&
     find_rows(around, flow);
     guess_pressure(flow);
     predict(flow, time);
+    if (rule_.implicit) report.viscosity = diffuse(flow, time);
+    hold_walls(flow);
     find_sources(flow, time);
   }
   {
@@ -106,7 +108,7 @@ void Projection::guess_pressure(const Flow& flow) {
   if (scheme == Scheme::filtered) stencils_.fit(flow.p, flow.q);
   Kokkos::parallel_for("fpm::guess_pressure", Range(0, flow.points), KOKKOS_LAMBDA(int i) {
         if (scheme == Scheme::incremental) flow.q(i) = flow.p(i);
-        if (scheme == Scheme::plain || flow.row(i) == row_value) flow.q(i) = 0;
+        if (scheme == Scheme::plain || scheme == Scheme::projection || flow.row(i) == row_value) flow.q(i) = 0;
         flow.value(i) = -flow.q(i);
         flow.phi(i) = 0;
       });
@@ -114,11 +116,20 @@ void Projection::guess_pressure(const Flow& flow) {
 
 void Projection::predict(const Flow& flow, const Backward& time) {
   const Range clusters(0, stencils_.view().around.clusters.size());
-  if (rule_.viscosity > 0)
+  if (rule_.viscosity > 0 && !rule_.implicit)
     Kokkos::parallel_for("fpm::predict", clusters, Predict<true>{stencils_.view(), rule_, flow, time});
   else
     Kokkos::parallel_for("fpm::predict", clusters, Predict<false>{stencils_.view(), rule_, flow, time});
-  if (rule_.scheme != Scheme::incremental) return;
+}
+
+linear::BiCgStabReport Projection::diffuse(const Flow& flow, const Backward& time) {
+  return viscosity_.solve(stencils_.view(), {flow.kind, flow.surface, flow.normal, rule_.slip, time.c1 == 0},
+                          rule_.viscosity * time.tau, flow.v_star, flow.v);
+}
+
+// The printed schemes'.
+void Projection::hold_walls(const Flow& flow) {
+  if (rule_.scheme != Scheme::incremental && rule_.scheme != Scheme::projection) return;
   Kokkos::parallel_for("fpm::hold_walls", Range(0, flow.points), KOKKOS_LAMBDA(int i) {
         if (is_wall(flow.kind(i))) put(flow.v_star, i, Vec<double, 2>{});
       });

@@ -4,16 +4,19 @@
 //   q = fitted p, 0 on the surface;  v* = c0 v + c1 v_old + tau (-grad q / rho + nu lap v + f)
 //   lap phi = rho div v* / tau;  walls: n . grad phi = rho n . v* / tau;  surface: phi = -q
 //   v = v* - tau grad phi / rho, at walls held;  p = q + phi;  filtered: v next to walls and surface towards its fit
+// Viscosity taken implicitly: v* = ... + tau nu lap v* (viscosity.hpp). The term - rho nu div v* that (5.8) has in p then is left out: with it
+// still water is not stable (e-fold in 0.15 s at nu = 1 m2/s).
 #pragma once
 #include "kernels/fpm/elliptic.hpp"
 #include "kernels/fpm/stencils.hpp"
 #include "kernels/fpm/tank.hpp"
+#include "kernels/fpm/viscosity.hpp"
 
 namespace freshet::fpm {
 
-// filtered: as above. incremental: as printed, q = p unfiltered, v* = 0 and n . grad phi = 0 on walls (unstable: kept to show it).
-// plain: q = 0.
-enum class Scheme { filtered, incremental, plain };
+// filtered: as above. plain: q = 0. Unstable, kept to show it: as printed, v* = 0 and n . grad phi = 0 on walls, with
+// incremental: q = p unfiltered; projection: q = 0.
+enum class Scheme { filtered, incremental, plain, projection };
 
 struct FlowRule {
   double density = 1000;      // kg/m3
@@ -22,6 +25,7 @@ struct FlowRule {
   Scheme scheme = Scheme::filtered;
   bool slip = true;           // walls; false: they hold the tangential velocity too
   double tolerance = 1e-9;    // of the pressure equation
+  bool implicit = false;      // viscosity
 };
 
 // A flow's fields; scratch: those below the line.
@@ -45,6 +49,7 @@ struct Backward {
 
 struct ProjectionReport {
   PoissonReport poisson;
+  linear::BiCgStabReport viscosity;  // where it is implicit
   int poor = 0;  // points whose neighbours do not determine all derivatives
 };
 
@@ -67,6 +72,8 @@ class Projection {
   void find_rows(const Neighbourhood<2>& around, const Flow& flow);
   void guess_pressure(const Flow& flow);
   void predict(const Flow& flow, const Backward& time);
+  linear::BiCgStabReport diffuse(const Flow& flow, const Backward& time);
+  void hold_walls(const Flow& flow);
   void find_sources(const Flow& flow, const Backward& time);
   void correct(const Flow& flow, const Backward& time);
   void smooth_edges(const Flow& flow);
@@ -77,6 +84,7 @@ class Projection {
   TankView tank_;
   Stencils<2> stencils_;
   Poisson<2> poisson_;
+  ImplicitViscosity viscosity_;
   OrderedSums sums_;
 };
 

@@ -30,11 +30,11 @@ double highest_level(const Cloud& cloud, const Field<int>& surface, int n, doubl
   const VecField<double, 2> place = cloud.near.x;
   const double same = 1e-6 * cloud.spacing;
   Kokkos::parallel_reduce("fpm::surface_level", Range(0, n), KOKKOS_LAMBDA(int i, double& high) {
-        const double across = x - place.x(i);
-        if (surface(i) == 0 || across * across > 4 * radius * radius) return;
-        const PointCell c = cell_of(cloud, i, radius);
-        if (!holds_triangle(c, radius)) return;
-        const double level = across * across < same * same ? larger(0.0, level_of_edges(c, radius, across)) : level_of_edges(c, radius, across);
+        const double across = x - place.x(i), r = radius * cloud.spacing_at(i);
+        if (surface(i) == 0 || across * across > 4 * r * r) return;
+        const PointCell c = cell_of(cloud, i, r);
+        if (!holds_triangle(c, r)) return;
+        const double level = across * across < same * same ? larger(0.0, level_of_edges(c, r, across)) : level_of_edges(c, r, across);
         if (level > no_water) high = larger(high, place.y(i) + level);
       }, Kokkos::Max<double>(highest));
   return larger(highest, no_water);  // Kokkos starts from a lower one
@@ -45,7 +45,8 @@ double farthest_x(const Cloud& cloud, const Field<int>& surface, int n, double r
   const VecField<double, 2> place = cloud.near.x;
   Kokkos::parallel_reduce("fpm::front", Range(0, n), KOKKOS_LAMBDA(int i, double& far) {
         if (surface(i) == 0 && cloud.kind(i) == in_fluid) return;
-        if (place.x(i) > far && holds_triangle(cell_of(cloud, i, radius), radius)) far = place.x(i);
+        const double r = radius * cloud.spacing_at(i);
+        if (place.x(i) > far && holds_triangle(cell_of(cloud, i, r), r)) far = place.x(i);
       }, Kokkos::Max<double>(farthest));
   return larger(farthest, no_water);
 }

@@ -7,7 +7,7 @@ namespace freshet::fpm {
 
 constexpr double no_water = -1e300;  // m
 
-// Highest level [m] at which the surface crosses the upright line at x [m]. radius [m]: of the empty circle.
+// Highest level [m] at which the surface crosses the upright line at x [m]. radius: of the empty circle, x spacing.
 double highest_level(const Cloud& cloud, const Field<int>& surface, int n, double radius, double x);
 
 // Largest x [m] of the water.

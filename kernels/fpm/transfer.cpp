@@ -9,15 +9,15 @@ KOKKOS_FORCEINLINE_FUNCTION Terms<double, 2> scaled_basis(const Vec<double, 2>& 
 
 }  // namespace
 
-void Transfer::find(const Near& near, const VecField<double, 2>& places, int count, double h) {
+void Transfer::find(const Near& near, const VecField<double, 2>& places, const Field<double>& h, int count) {
   if (factors_.extent_int(0) < count)
     factors_ = decltype(factors_)(Kokkos::ViewAllocateWithoutInitializing("fpm.transfer"), static_cast<std::size_t>(count + count / 2));
   near_ = near, places_ = places, count_ = count, h_ = h;
   const auto factors = factors_;
-  const double per_h = 1 / h;
   Kokkos::parallel_for("fpm::transfer_factors", Range(0, count), KOKKOS_LAMBDA(int k) {
         Moments<double, 2> moments;
-        near.for_each(at(places, k), h, [&](int, const Vec<double, 2>& d, double r2) {
+        const double per_h = 1 / h(k);
+        near.for_each(at(places, k), h(k), [&](int, const Vec<double, 2>& d, double r2) {
           moments.add(weight(r2 * per_h * per_h), scaled_basis(d, per_h));
         });
         factors(k) = value_factors(moments);
@@ -28,10 +28,11 @@ void Transfer::apply(const Field<double>& field, const Field<double>& value) con
   const Near near = near_;
   const VecField<double, 2> places = places_;
   const auto factors = factors_;
-  const double h = h_, per_h = 1 / h_;
+  const Field<double> h = h_;
   Kokkos::parallel_for("fpm::transfer", Range(0, count_), KOKKOS_LAMBDA(int k) {
         double sum = 0, low = 1e300, high = -1e300;
-        near.for_each(at(places, k), h, [&](int j, const Vec<double, 2>& d, double r2) {
+        const double per_h = 1 / h(k);
+        near.for_each(at(places, k), h(k), [&](int j, const Vec<double, 2>& d, double r2) {
           sum += weight(r2 * per_h * per_h) * dot(factors(k), scaled_basis(d, per_h)) * field(j);
           low = smaller(low, field(j)), high = larger(high, field(j));
         });

@@ -12,8 +12,8 @@ namespace freshet::fpm {
 
 class Transfer {
  public:
-  // Finds the factors of the places 0 ... count - 1 [m] for points within h [m] of them.
-  void find(const Near& near, const VecField<double, 2>& places, int count, double h);
+  // Finds the factors of the places 0 ... count - 1 [m] for points within h [m] of each.
+  void find(const Near& near, const VecField<double, 2>& places, const Field<double>& h, int count);
 
   // value(k) = the field's fitted value at place k.
   void apply(const Field<double>& field, const Field<double>& value) const;
@@ -22,8 +22,8 @@ class Transfer {
   Near near_;
   VecField<double, 2> places_;
   Kokkos::View<Terms<double, 2>*, Memory> factors_;
+  Field<double> h_;
   int count_ = 0;
-  double h_ = 0;
 };
 
 }  // namespace freshet::fpm

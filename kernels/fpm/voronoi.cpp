@@ -12,6 +12,7 @@ struct Searcher {
     int i;
     Vec<double, 2> p;
     const PointCell& c;
+    double dx;  // m
     Missing best;
 
     KOKKOS_FORCEINLINE_FUNCTION void offer(int kind, double size, const Vec<double, 2>& from_p, int side = -1) {
@@ -22,7 +23,7 @@ struct Searcher {
     KOKKOS_FORCEINLINE_FUNCTION Vec<double, 2> to(int number) const { return {c.around.x[number], c.around.y[number]}; }
   };
 
-  KOKKOS_FORCEINLINE_FUNCTION double half() const { return rule.surface * cloud.spacing; }
+  KOKKOS_FORCEINLINE_FUNCTION double half(int i) const { return rule.surface * cloud.spacing_at(i); }
 
   // The smallest id of those that see the same place speaks for them.
   KOKKOS_FORCEINLINE_FUNCTION bool speaks(const Look& l, int number) const {
@@ -34,10 +35,10 @@ struct Searcher {
     const Vec<double, 2> da = l.to(a), db = l.to(b);
     if (rule.area > 0) {
       const double area = 0.5 * (da.x * db.y - da.y * db.x);
-      l.offer(Missing::in_bulk, area / (rule.area * cloud.spacing * cloud.spacing), (1.0 / 3) * (da + db));
+      l.offer(Missing::in_bulk, area / (rule.area * l.dx * l.dx), (1.0 / 3) * (da + db));
     } else if (dot(da, db) > 0 && dot(da, da - db) > 0 && dot(db, db - da) > 0) {
       // Only where it holds its own circumcentre is that the middle of a hole; of others it may lie outside the water.
-      l.offer(Missing::in_bulk, root(r2) / (rule.hole * cloud.spacing), l.corner(k));
+      l.offer(Missing::in_bulk, root(r2) / (rule.hole * l.dx), l.corner(k));
     }
   }
 
@@ -54,35 +55,36 @@ struct Searcher {
     const double along = dot(x - s.a, s.tangent);
     if (along < 0 || along > s.length) return;
     const bool both = stands_on(s, l.p) && stands_on(s, l.p + l.to(number));
-    l.offer(Missing::at_wall, root(r2) / ((both ? 0.5 * rule.edge : rule.hole) * cloud.spacing), l.corner(k), side);
+    l.offer(Missing::at_wall, root(r2) / ((both ? 0.5 * rule.edge : rule.hole) * l.dx), l.corner(k), side);
   }
 
   KOKKOS_INLINE_FUNCTION void wall_corner(Look& l, int a, int b, double r2, int k) const {
     const int first = cloud.tank.sides(a).after == b ? a : b;
     if (cloud.tank.sides(first).after != (first == a ? b : a) || !cloud.tank.sides(first).corner_b) return;
-    l.offer(Missing::at_corner, root(r2) / (0.5 * rule.edge * cloud.spacing), l.corner(k), first);
+    l.offer(Missing::at_corner, root(r2) / (0.5 * rule.edge * l.dx), l.corner(k), first);
   }
 
   // The Delaunay edge to a neighbour, one of whose empty circles is as large as the surface's.
   KOKKOS_INLINE_FUNCTION void surface_edge(Look& l, int k) const {
     const Cell& cell = l.c.cell;
     const int number = cell.edge[k];
-    const double open2 = half() * half(), longest = rule.edge * cloud.spacing;
+    const double open2 = half(l.i) * half(l.i), longest = rule.edge * l.dx;
     if (number < 0 || l.c.around.r2[number] < longest * longest || !speaks(l, number)) return;
     if (cell.distance2(k) < open2 && cell.distance2(cell.after(k)) < open2) return;
     if (l.c.around.r2[number] >= 4 * open2) return;
     const Vec<double, 2> middle = 0.5 * l.to(number);
-    const Footing under = cloud.tank.nearest(l.p + middle, 1e-3 * cloud.spacing);
+    const Footing under = cloud.tank.nearest(l.p + middle, 1e-3 * l.dx);
     if (under.side < 0) l.offer(Missing::on_surface, root(l.c.around.r2[number]) / longest, middle);
   }
 
   KOKKOS_INLINE_FUNCTION Missing search(int i, const PointCell& c) const {
-    Look l{i, at(cloud.near.x, i), c, {}};
+    Look l{i, at(cloud.near.x, i), c, cloud.spacing_at(i), {}};
+    const double open2 = half(i) * half(i);
     for (int k = 0; k < c.cell.size; ++k) {
       surface_edge(l, k);
       const int a = c.cell.edge[c.cell.before(k)], b = c.cell.edge[k];
       const double r2 = c.cell.distance2(k);
-      if (r2 >= half() * half() || a == Cell::open || b == Cell::open) continue;
+      if (r2 >= open2 || a == Cell::open || b == Cell::open) continue;
       if (a >= 0 && b >= 0) triangle(l, a, b, r2, k);
       else if (a < 0 && b < 0) wall_corner(l, Cell::segment_of(a), Cell::segment_of(b), r2, k);
       else wall_gap(l, Cell::segment_of(a < 0 ? a : b), a < 0 ? b : a, r2, k);
@@ -106,7 +108,7 @@ VoronoiReport Voronoi::find(const Cloud& cloud, int n, const Field<int>& surface
   VoronoiReport r;
   Kokkos::parallel_reduce("fpm::voronoi", Range(0, n),
       KOKKOS_LAMBDA(int i, int& surfaces, int& holes, int& failures) {
-        const double half = searcher.half();
+        const double half = searcher.half(i);
         const PointCell c = cell_of(cloud, i, half);
         surface(i) = c.cell.reach2() >= half * half;
         surfaces += surface(i);

@@ -8,7 +8,7 @@
 
 namespace freshet::fpm {
 
-// Lengths and areas in units of the spacing.
+// Lengths and areas in units of the spacing at the point.
 struct VoronoiRule {
   double surface = 1.3;  // radius of the empty circle that makes a surface
   double hole = 0.9;     // circumradius beyond which a triangle is a hole; new point at its circumcentre
@@ -22,6 +22,9 @@ struct Cloud {
   Field<int> id, kind;  // kind: PointKind
   TankView tank;
   double spacing;       // m, dx
+  Field<double> dx{};   // m, that of each point where it varies
+
+  KOKKOS_FORCEINLINE_FUNCTION double spacing_at(int i) const { return dx.extent(0) > 0 ? dx(i) : spacing; }
 };
 
 // A point's neighbours by distance, then id; those beyond `most` are left out.
@@ -77,7 +80,7 @@ KOKKOS_INLINE_FUNCTION void cut_neighbours(PointCell& c) {
 // Most cells close within a good spacing: neighbours farther than twice that are asked for only where they do not.
 KOKKOS_INLINE_FUNCTION PointCell cell_of(const Cloud& cloud, int i, double half) {
   const Vec<double, 2> p = at(cloud.near.x, i);
-  const double close = smaller(0.95 * cloud.spacing, half);
+  const double close = smaller(0.95 * cloud.spacing_at(i), half);
   const double reaches[] = {close, half};
   for (const double reach : reaches) {
     PointCell c(half);

@@ -18,7 +18,10 @@ void grow(Vector& field, const std::string& label, int n) {
 template <class View>
 void grow(View& table, const std::string& label, int n, int width) {
   if (table.extent_int(0) >= n + lanes && table.extent_int(1) >= width) return;
-  table = View(label, static_cast<size_t>(n + n / 2 + 16 + lanes), static_cast<size_t>(width));
+  table = {};
+  table = View(Kokkos::ViewAllocateWithoutInitializing(label), static_cast<size_t>(n + n / 2 + 16 + lanes), static_cast<size_t>(width));
+  prefer_huge_pages(table);
+  Kokkos::deep_copy(table, 0);
 }
 
 int halved(int n) { return (n + 1) / 2; }
@@ -41,10 +44,11 @@ void reserve(BinLevel& level) {
   grow(level.weight, "multigrid.weight", n);
   grow(level.a, "multigrid.a", n, level.width());
   grow(level.column, "multigrid.column", n, level.width());
+  grow(level.even, "multigrid.even", level.blocks());
   for (Vector* v : {&level.inverse_diagonal, &level.b, &level.x, &level.y}) grow(*v, "multigrid.vector", n);
 }
 
-// Zero rows with their columns; a slot without unknown refers to its own row.
+// Zero rows with their columns; a slot without unknown refers to its own row. And which blocks can do without gathers.
 void clear_rows(const BinLevel& level) {
   Kokkos::parallel_for("multigrid::clear_rows", Range(0, level.size), KOKKOS_LAMBDA(int k) {
         for (int s = 0; s < level.width(); ++s) {
@@ -52,6 +56,13 @@ void clear_rows(const BinLevel& level) {
           level.a(k, s) = 0;
           level.column(k, s) = j < 0 ? k : j;
         }
+      });
+  Kokkos::parallel_for("multigrid::even", Range(0, level.blocks()), KOKKOS_LAMBDA(int c) {
+        const int first = c * lanes;
+        int even = first + lanes <= level.size;
+        for (int s = 0; s < level.width(); ++s)
+          for (int l = 1; even && l < lanes; ++l) even = level.column(first + l, s) == level.column(first, s) + l;
+        level.even(c) = even;
       });
 }
 
@@ -159,9 +170,13 @@ void BinMultigrid::sum_points(BinLevel& level) {
           if (!free(i)) continue;
           members += 1;
           const int c = cluster(i), lane = i - m.clusters(c).first;
-          for (int p = 0; p < m.near.length(c); ++p) {
+          for (int p = 0, last = -1, slot = 0; p < m.near.length(c); ++p) {
             const int to = parent(m.near.list(c, p));
-            if (to >= 0 && m.a(c, p, lane) != 0) l.a(k, l.slot(l.bin(k), l.bin(to))) += m.a(c, p, lane);
+            const double entry = m.a(m.start(c) + p, lane);
+            if (to < 0 || entry == 0) continue;
+            if (to != last) slot = l.slot(l.bin(k), l.bin(to));  // neighbours of a bin follow each other
+            last = to;
+            l.a(k, slot) += entry;
           }
         }
         l.a(k, l.centre()) += members;  // the diagonal's ones

@@ -19,6 +19,7 @@ struct BinLevel {
   Field<double> weight;          // unknowns of the matrix in it
   Kokkos::View<double**, Kokkos::LayoutLeft, Memory> a;  // [unknown][slot], slot = (dy + ry) (2 rx + 1) + dx + rx
   Kokkos::View<int**, Kokkos::LayoutLeft, Memory> column;
+  Field<int> even;               // of a block of rows: 1 where the columns of each slot follow each other, as away from the rim
   Vector inverse_diagonal;
   Vector b, x, y;                // of the cycle
 
@@ -49,14 +50,22 @@ struct BinLevel {
   KOKKOS_FORCEINLINE_FUNCTION Lanes block(int c) const { return {c * lanes, smaller(lanes, size - c * lanes)}; }
   KOKKOS_FORCEINLINE_FUNCTION Lane times(int c, const Vector& v) const {
     Lane sum{0.0};
+    if (even(c)) {
+      for (int s = 0; s < width(); ++s) sum += entry(c, s) * loaded(v.data() + column(c * lanes, s));
+      return sum;
+    }
     for (int s = 0; s < width(); ++s) {
-      Lane entry;
       LaneIndex j;
-      __builtin_memcpy(&entry, &a(c * lanes, s), sizeof entry);
       __builtin_memcpy(&j, &column(c * lanes, s), sizeof j);
-      sum += entry * gather(v.data(), j);
+      sum += entry(c, s) * gather(v.data(), j);
     }
     return sum;
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Lane entry(int c, int s) const { return loaded(&a(c * lanes, s)); }
+  static KOKKOS_FORCEINLINE_FUNCTION Lane loaded(const double* from) {
+    Lane value;
+    __builtin_memcpy(&value, from, sizeof value);
+    return value;
   }
   KOKKOS_FORCEINLINE_FUNCTION Lane per_diagonal(int c) const { return block(c).load(inverse_diagonal); }
 };

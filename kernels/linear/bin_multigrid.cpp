@@ -10,9 +10,15 @@ struct Points {
   ClusterMatrix m;
   int blocks() const { return m.clusters.size(); }
   KOKKOS_FORCEINLINE_FUNCTION Lanes block(int c) const { return m.clusters(c); }
-  KOKKOS_FORCEINLINE_FUNCTION Lane times(int c, const Vector& v) const { return m.clusters(c).load(v) + m.off_diagonal_rough(c, v); }
+  KOKKOS_FORCEINLINE_FUNCTION Lane times(int c, const Vector& v) const { return m.times_rough(c, v); }
   KOKKOS_FORCEINLINE_FUNCTION Lane per_diagonal(int) const { return 1.0; }
 };
+
+// Launch labels: on points, on bins.
+const char* smooth_label(const Points&) { return "multigrid::smooth_points"; }
+const char* smooth_label(const BinLevel&) { return "multigrid::smooth_bins"; }
+const char* residual_label(const Points&) { return "multigrid::residual_points"; }
+const char* residual_label(const BinLevel&) { return "multigrid::residual_bins"; }
 
 // to := damping D^-1 b
 template <class Level>
@@ -26,7 +32,7 @@ void smooth_zero(const Level& level, const Vector& b, const Vector& to, double d
 // to := x + damping D^-1 (b - A x)
 template <class Level>
 void smooth(const Level& level, const Vector& b, const Vector& x, const Vector& to, double damping) {
-  Kokkos::parallel_for("multigrid::smooth", Range(0, level.blocks()), KOKKOS_LAMBDA(int c) {
+  Kokkos::parallel_for(smooth_label(level), Range(0, level.blocks()), KOKKOS_LAMBDA(int c) {
         const Lanes me = level.block(c);
         me.store(to, me.load(x) + damping * level.per_diagonal(c) * (me.load(b) - level.times(c, x)));
       });
@@ -42,7 +48,7 @@ void smooth_from_zero(const Level& level, const Vector& b, Vector& x, Vector& y,
 // to := b - A x
 template <class Level>
 void find_residual(const Level& level, const Vector& b, const Vector& x, const Vector& to) {
-  Kokkos::parallel_for("multigrid::residual", Range(0, level.blocks()), KOKKOS_LAMBDA(int c) {
+  Kokkos::parallel_for(residual_label(level), Range(0, level.blocks()), KOKKOS_LAMBDA(int c) {
         const Lanes me = level.block(c);
         me.store(to, me.load(b) - level.times(c, x));
       });

@@ -21,12 +21,13 @@ struct Fluxes {
   }
 };
 
-// H^{n+1} = H^n - (dt / omega) sum_j F_ij, the share of the outflow that there is water for, and the least depth.
+// H^{n+1} = H^n - (dt / omega) sum_j F_ij, the share of the outflow that there is water for, that of the velocity's slope that
+// keeps the momentum convex (the water that stays, measured in what leaves), and the least depth.
 template <int D>
 struct Depths {
   Geometry<D> g;
   SliceList active;
-  Field<double> before, flux, depth, share;
+  Field<double> before, flux, depth, share, slope_share;
   double dt;
 
   KOKKOS_FUNCTION void operator()(int k, double& least) const {
@@ -42,6 +43,7 @@ struct Depths {
     const Lane after = select(Lane(0.5) < free, (has - dt * out) / me.load(g.omega), me.load(depth));
     me.store(depth, after);
     me.store(share, select((after < Lane(0.0)) & (Lane(0.5) < free), has / (dt * out + 1e-300), Lane(1.0)));
+    me.store(slope_share, smaller(larger(volume - dt * out, Lane(0.0)) / (dt * out + 1e-300), Lane(1.0)));
     least = smaller(least, smallest(after));
   }
 };
@@ -92,7 +94,7 @@ struct Advect {
   SliceList active;
   Water<D> water;
   VelocityGradient<D> gradient;
-  Field<double> flux, depth;
+  Field<double> flux, depth, slope_share;
   double dt;
   VecField<double, D> advected;
 
@@ -103,6 +105,7 @@ struct Advect {
     const Vec<Lane, D> vi = me.load(water.v), dui = me.load(gradient.u);
     Vec<Lane, D> dvi;
     if constexpr (D == 2) dvi = me.load(gradient.v);
+    const Lane mine = me.load(slope_share);
     Lane in(0.0);
     Vec<Lane, D> carried;
     g.pairs.for_each(s, [&](int e, PairIndex j) {
@@ -114,8 +117,9 @@ struct Advect {
       if constexpr (D == 2) dv = sisph::select(inward, gather(gradient.v, j), dvi);
       const Vec<Lane, D> donor = sisph::select(inward, vj, vi), difference = sisph::select(inward, vi - vj, vj - vi);
       const Vec<Lane, D> face = face_velocity(donor, difference, towards * PairView::load(g.n, e), du, dv);
+      const Lane kept = select(inward, gather(slope_share.data(), j), mine);
       in += larger(-f, Lane(0.0));
-      carried += (-f) * (face - vi);
+      carried += (-f) * (donor + kept * (face - donor) - vi);
     });
     // keep v + dt sum_in |F| v_f - dt sum_out F (v_f - v), less v (keep + dt sum_in |F|)
     const Lane mass = me.load(g.omega) * larger(me.load(depth), Lane(0.0)), whole = larger(mass, dt * in);
@@ -127,15 +131,18 @@ struct Advect {
 }  // namespace
 
 template <int D>
-MassFlux<D>::MassFlux(const Geometry<D>& g) : g_(g), share_("sisph.share", static_cast<size_t>(g.pairs.particles) + lanes) {
+MassFlux<D>::MassFlux(const Geometry<D>& g)
+    : g_(g), share_("sisph.share", static_cast<size_t>(g.pairs.particles) + lanes),
+      slope_share_("sisph.slope_share", static_cast<size_t>(g.pairs.particles) + lanes) {
   Kokkos::deep_copy(share_, 1.0);
+  Kokkos::deep_copy(slope_share_, 1.0);
 }
 
 template <int D>
 double MassFlux<D>::least_depth(const SliceList& active, const Water<D>& water, const FreeSurface<D>& surface, double dt) {
   double least = 0;
   Kokkos::parallel_reduce("sisph::depths", Range(0, active.count),
-                          Depths<D>{g_, active, water.depth, surface.flux(), surface.depth(), share_, dt}, Kokkos::Min<double>(least));
+                          Depths<D>{g_, active, water.depth, surface.flux(), surface.depth(), share_, slope_share_, dt}, Kokkos::Min<double>(least));
   return active.count > 0 ? least : 0.0;
 }
 
@@ -174,7 +181,7 @@ template <int D>
 void MassFlux<D>::advect(const SliceList& active, const Water<D>& water, const FreeSurface<D>& surface,
                          const VelocityGradient<D>& gradient, double dt, const VecField<double, D>& advected) {
   Kokkos::parallel_for("sisph::advect", Range(0, active.count),
-                       Advect<D>{g_, active, water, gradient, surface.flux(), surface.depth(), dt, advected});
+                       Advect<D>{g_, active, water, gradient, surface.flux(), surface.depth(), slope_share_, dt, advected});
 }
 
 template class MassFlux<1>;

@@ -1,6 +1,7 @@
 // Momentum carried by the mass fluxes (wet and dry alike), convex in the velocities where no slope is taken:
 //   (m' + ...) v*_i = keep_i v_i + dt sum_in |F_ij| v_f - dt sum_out F_ij (v_f - v_i),  keep_i = max(0, m_i^{n+1} - dt sum_in |F_ij|)
-// v_f: the donor's velocity, carried to the face by its limited gradient (van Leer).
+// v_f: the donor's velocity, carried to the face by its limited gradient (van Leer), and by less of it where more than half of its
+// water leaves: what stays would else be thrown about.
 #pragma once
 #include "kernels/sisph/gradient.hpp"
 
@@ -28,7 +29,8 @@ class MassFlux {
 
   Geometry<D> g_;
   OrderedSums sums_;
-  Field<double> share_;  // of its outflow that a particle can give
+  Field<double> share_;        // of its outflow that a particle can give
+  Field<double> slope_share_;  // of its velocity's slope that its outflow carries
 };
 
 }  // namespace freshet::sisph

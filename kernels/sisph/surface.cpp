@@ -11,6 +11,13 @@ KOKKOS_FORCEINLINE_FUNCTION double sum_of(const Lanes& me, Lane a) {
   return total;
 }
 
+// The depth of what runs up onto dry land: the water that half its velocity head lifts above the higher bed, at most that at the
+// pair's middle. Without it a front stands before every particle that is dry until the water is as high as that particle's bed.
+KOKKOS_FORCEINLINE_FUNCTION Lane run_up_depth(Lane depth, Lane bed, Lane dry_bed, Lane half_head) {
+  const Lane lifted = bed + depth + half_head - dry_bed, middle = depth + 0.5 * (bed - dry_bed);
+  return larger(smaller(lifted, middle), Lane(0.0));
+}
+
 // a, f, b, the row sums, the residual of the iterate and the share of its outflow f that a particle has water for; returns the
 // slice's parts of |r|^2 and |b|^2, and how many of its particles would give more than they have.
 template <int D, bool drying>
@@ -21,7 +28,17 @@ struct Coefficients {
   VecField<double, D> before;
   Field<double> last_depth, level;                 // of the Picard pass before
   Field<double> a, flux, right, residual, row_sum, share;  // written
-  double stiffness, dt;                            // g theta^2 dt^2
+  double stiffness, dt, gravity;                   // g theta^2 dt^2
+
+  // The depth that f is carried in, vn its velocity from i to j.
+  KOKKOS_FORCEINLINE_FUNCTION Lane carried_depth(Lane hi, Lane hj, Lane bi, Lane bj, Lane vn) const {
+    const Lane still = face_depth<drying>(hi, hj, bi, bj);
+    if constexpr (!drying) return still;
+    const auto outward = Lane(0.0) < vn;
+    const Lane giver = select(outward, hi, hj), taker = select(outward, hj, hi), half_head = (0.25 / gravity) * vn * vn;
+    const Lane up = run_up_depth(giver, select(outward, bi, bj), select(outward, bj, bi), half_head);
+    return larger(still, select((Lane(0.0) < giver) & !(Lane(0.0) < taker), up, Lane(0.0)));
+  }
 
   KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, D> pair_velocity(const Vec<Lane, D>& vi, const Vec<Lane, D>& vj, Lane hi, Lane hj) const {
     if constexpr (!drying) return Lane(0.5) * (vi + vj);
@@ -39,9 +56,10 @@ struct Coefficients {
       const Lane hj = gather(water.depth.data(), j), lj = larger(gather(last_depth.data(), j), Lane(0.0));
       const Lane bj = drying ? gather(water.bed.data(), j) : Lane(0.0);
       const Lane face = 0.5 * (face_depth<drying>(hi, hj, bi, bj) + face_depth<drying>(li, lj, bi, bj));
-      const Lane wet_area = PairView::load(g.area, e) * face;
-      const Lane f = wet_area * dot(pair_velocity(vi, gather(before, j), hi + li, hj + lj), PairView::load(g.n, e));
-      const Lane aij = stiffness * wet_area / PairView::load(g.distance, e);
+      const Lane vn = dot(pair_velocity(vi, gather(before, j), hi + li, hj + lj), PairView::load(g.n, e));
+      const Lane carried = 0.5 * (carried_depth(hi, hj, bi, bj, vn) + carried_depth(li, lj, bi, bj, vn));
+      const Lane area = PairView::load(g.area, e), f = area * carried * vn;
+      const Lane aij = stiffness * area * face / PairView::load(g.distance, e);
       PairView::store(flux, e, f);
       PairView::store(a, e, aij);
       outflow += f;
@@ -173,7 +191,7 @@ template <bool drying>
 typename FreeSurface<D>::Norms FreeSurface<D>::find_coefficients(const SliceList& active, const Water<D>& water,
                                                                  const VecField<double, D>& before, double dt) {
   const Coefficients<D, drying> pass{g_, active, water, before, depth_, level_, a_, flux_, right_, residual_, row_sum_,
-                                     share_, options_.gravity * options_.theta * options_.theta * dt * dt, dt};
+                                     share_, options_.gravity * options_.theta * options_.theta * dt * dt, dt, options_.gravity};
   g_.images.fill(before);
   const auto sums = sums_.sum<3>("sisph::coefficients", active.count, pass);
   if (!drying || sums[2] == 0) return {std::sqrt(sums[0]), std::sqrt(sums[1])};

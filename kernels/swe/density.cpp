@@ -1,36 +1,13 @@
 #include "kernels/swe/density.hpp"
 
+#include "cellgrid/balanced.hpp"
+#include "kernels/swe/density_sums.hpp"
 #include "kernels/swe/least_squares.hpp"
 
 namespace freshet::swe {
 namespace {
 
 constexpr int most_turns = 60;  // each changes rho by at most 2: enough to cross any range
-
-// sum_j m_j F (v_j - v_i) (x) (x_j - x_i), and its trace.
-template <class V, int D>
-struct Gradient;
-template <class V>
-struct Gradient<V, 1> {
-  V xx{0.0};
-  KOKKOS_FORCEINLINE_FUNCTION Gradient& operator+=(const Gradient& b) { return xx += b.xx, *this; }
-  KOKKOS_FORCEINLINE_FUNCTION void add(const Vec<V, 1>& fd, const Vec<V, 1>& dv) { xx += fd.x * dv.x; }
-  KOKKOS_FORCEINLINE_FUNCTION V divergence() const { return xx; }
-};
-template <class V>
-struct Gradient<V, 2> {
-  V ux{0.0}, uy{0.0}, vx{0.0}, vy{0.0};
-  KOKKOS_FORCEINLINE_FUNCTION Gradient& operator+=(const Gradient& b) {
-    return ux += b.ux, uy += b.uy, vx += b.vx, vy += b.vy, *this;
-  }
-  KOKKOS_FORCEINLINE_FUNCTION void add(const Vec<V, 2>& fd, const Vec<V, 2>& dv) {
-    ux += fd.x * dv.x;
-    uy += fd.y * dv.x;
-    vx += fd.x * dv.y;
-    vy += fd.y * dv.y;
-  }
-  KOKKOS_FORCEINLINE_FUNCTION V divergence() const { return ux + vy; }
-};
 
 // Symmetric part of the L-normalised gradient B A^-1.
 KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 1> symmetric_gradient(const Gradient<Lane, 1>& b, const Sym<Lane, 1>& a, Lane) {
@@ -41,126 +18,9 @@ KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 2> symmetric_gradient(const Gradient<Lane,
   return {b.ux * l.xx + b.uy * l.xy, 0.5 * shear * (b.ux * l.xy + b.uy * l.yy + b.vx * l.xx + b.vy * l.xy), b.vx * l.xy + b.vy * l.yy};
 }
 
-// What a walk over the neighbours is for: density and its derivative by h; also d rho/dt; also grad v.
-enum class Want { density, rate, gradient };
-
-template <int D>
-struct PairSums {
-  Lane density{0.0};        // sum m W
-  Lane moment{0.0};         // sum m F r^2, F = -W'/r
-  Lane closing{0.0};        // sum m F v_ji . x_ji
-  Sym<Lane, D> spread;      // sum m F x_ji (x) x_ji: its trace is the moment
-  Gradient<Lane, D> slope;  // sum m F v_ji (x) x_ji: its divergence is the closing
-
-  // Number by number: a sum that is copied as a whole stays in memory while it is summed (g++ 12).
-  KOKKOS_FORCEINLINE_FUNCTION PairSums& operator+=(const PairSums& b) {
-    return density += b.density, moment += b.moment, closing += b.closing, spread += b.spread, slope += b.slope, *this;
-  }
-};
-
-template <int D>
-struct Sums : PairSums<D> {
-  WallSums<Lane, D> wall;
-};
-
-// One pair, all from one 1/r.
-template <Want want, class K, int D>
-KOKKOS_FORCEINLINE_FUNCTION void add_pair(const K& kernel, const Vec<Lane, D>& x_ji, const Vec<Lane, D>& v_ji, Lane m, Lane inv_h,
-                                          PairSums<D>& sum) {
-  const Lane r2 = dot(x_ji, x_ji) + tiny_square;
-  const Lane inv_r = rsqrt(r2), r = r2 * inv_r;
-  const auto k = kernel.at(r * inv_h);
-  const Lane m_dw = -m * k.dw;
-  sum.density += m * k.w;
-  if constexpr (want == Want::gradient) {
-    const Vec<Lane, D> f_x = (m_dw * inv_r) * x_ji;
-    add_square(sum.spread, f_x, x_ji);
-    sum.slope.add(f_x, v_ji);
-  } else {
-    sum.moment += m_dw * r;
-    if constexpr (want == Want::rate) sum.closing += m_dw * inv_r * dot(v_ji, x_ji);
-  }
-}
-
-// What a cluster's particles bring to their sums.
-template <int D>
-struct Here {
-  Vec<Lane, D> x, v;
-  Lane m, h0;
-};
-
-template <int D, class K>
-struct SumDensity {
-  K kernel;
-  ClusterSet clusters;
-  NeighbourView near;
-  WallView<D> walls;
-  Particles<D> p;
-
-  KOKKOS_INLINE_FUNCTION Here<D> here(const Lanes& me) const {
-    return {me.load(p.x), me.load(p.v_pred), me.load(p.m), me.load(p.h0)};
-  }
-
-  template <Want want>
-  KOKKOS_INLINE_FUNCTION Sums<D> sum(int c, const Here<D>& i, Lane rho, Lane h) const {
-    const Lane inv_h = 1.0 / h;
-    const PairSums<D> pairs = walk<want>(c, i.x, i.v, inv_h, [](int) { return true; });
-    Sums<D> s;
-    s += pairs;
-    if constexpr (want == Want::gradient) s.moment = trace(s.spread), s.closing = s.slope.divergence();
-    const Lane per_volume = power<D>(inv_h);
-    s.density *= per_volume;
-    if (walls.on && walls.mirror)
-      add_images(c, i, inv_h, s.wall);
-    else if (walls.on)
-      add_walls(c, i, walls.virtual_mass(i.m, i.h0 * inv_h, rho), inv_h, s.wall);
-    return s;
-  }
-
-  // The sums over the neighbours that count, as seen from x moving at v. A local result, its arguments by value: sums whose
-  // address is known elsewhere would be written to memory at every pair.
-  template <Want want, class Counts>
-  KOKKOS_FORCEINLINE_FUNCTION PairSums<D> walk(int c, const Vec<Lane, D> x, const Vec<Lane, D> v, const Lane inv_h,
-                                               const Counts& counts) const {
-    PairSums<D> s;
-    near.for_each(c, [&](int j) {
-      if (!counts(j)) return;
-      Vec<Lane, D> v_ji;
-      if constexpr (want != Want::density) v_ji = broadcast(at(p.v_pred, j)) - v;
-      add_pair<want>(kernel, broadcast(at(p.x, j)) - x, v_ji, Lane(p.m(j)), inv_h, s);
-    });
-    return s;
-  }
-
-  // Whether the sums depend on the particle's own depth beside its h: through virtual particles that follow it.
-  KOKKOS_INLINE_FUNCTION bool follow_depth(int c) const { return walls.on && !walls.mirror && walls.near.length(c) > 0; }
-
-  // What the neighbours' images add: the cluster's own image sees the neighbours.
-  KOKKOS_INLINE_FUNCTION void add_images(int c, const Here<D>& i, Lane inv_h, WallSums<Lane, D>& wall) const {
-    const Lane per_volume = power<D>(inv_h);
-    walls.for_each_image(c, i.x, [&](const Image<D>& image, Lane weight, const WallSegment& segment) {
-      const Vec<Lane, D> x_image = image(i.x);
-      const double limit = kernel.support / smallest(inv_h) + walls.foremost(segment, x_image);
-      if (limit <= 0) return;
-      const PairSums<D> s = walk<Want::rate>(c, x_image, image.turn(i.v), inv_h,
-                                             [&](int j) { return walls.mirrors(segment, at(p.x, j), limit); });
-      wall.density += weight * per_volume * s.density;
-      wall.moment += weight * per_volume * inv_h * s.moment;
-      wall.approach += weight * per_volume * inv_h * s.closing;
-    });
-  }
-
-  KOKKOS_INLINE_FUNCTION void add_walls(int c, const Here<D>& i, Lane mass, Lane inv_h, WallSums<Lane, D>& s) const {
-    walls.near.for_each(c, [&](int k) {
-      const Vec<Lane, D> normal_velocity = broadcast(walls.projector, k) * i.v;
-      add_wall(kernel, walls.stretch, i.x - broadcast(at(walls.x, k)), normal_velocity, inv_h, mass * walls.share(k), s);
-    });
-  }
-};
-
-template <int D, class K>
+template <int D, class K, bool single>
 struct SolveDensity {
-  SumDensity<D, K> sums;
+  SumDensity<D, K, single> sums;
   ImposedLanes imposed_lanes;
   DensityOptions options;
 
@@ -171,6 +31,10 @@ struct SolveDensity {
   KOKKOS_INLINE_FUNCTION Lane calibration(const Lanes& me) const {
     return options.calibration.extent(0) > 0 ? me.load(options.calibration) : Lane(1.0);
   }
+
+  // A residual whose square is far within the tolerance: the step that follows it squares the error, be it Newton's or, at a
+  // bound, exact. Not where that step crosses a bound. alpha stays that of the density before, so that its error is of this size.
+  KOKKOS_INLINE_FUNCTION double before_last_step() const { return larger(options.tolerance, 0.07 * root(options.tolerance)); }
 
   // Newton on psi = rho - sum m W(h(rho)) (2.8)-(2.10), its factor held within [1/2, 2]. Where h is at a bound it does not
   // follow rho: alpha = 1 and the root is the sum itself. "Bounded" is decided here, once, by the last evaluation.
@@ -203,7 +67,10 @@ struct SolveDensity {
       const Lane factor = select(Lane(0.5) < held, sum_itself, newton);
       const Lane residual = free * larger(rho - total, total - rho) / rho;
       rho = select(Lane(0.5) < imposed, imposed_rho, rho * clamp(factor, Lane(0.5), Lane(2.0)));
-      if (!any(Lane(options.tolerance) < residual) || turn == most_turns) break;
+      const Lane found = smoothing_length<D>(kh, rho);
+      const Lane bounded_then = select((low < found) & (found < high), Lane(0.0), Lane(1.0));
+      const Lane enough = select(Lane(0.25) < size_of(bounded_then - bounded), Lane(options.tolerance), Lane(before_last_step()));
+      if (!any(enough < residual) || turn == most_turns) break;
       const Lane next = clamp(smoothing_length<D>(kh, rho), low, smaller(high, longest_listed));
       if (!any((next < h) | (h < next)) && !sums.follow_depth(c)) continue;  // a fixed h: the sums are known
       h = next;
@@ -245,7 +112,7 @@ struct SolveDensity {
 
 template <int D, class K>
 struct Calibrate {
-  SumDensity<D, K> sums;
+  SumDensity<D, K, false> sums;
   Field<double> calibration;
 
   KOKKOS_INLINE_FUNCTION void operator()(int c) const {
@@ -264,14 +131,12 @@ DensityReport solve_density(const AnyKernel<D>& kernel, const ClusterSet& cluste
                             const DensityOptions& options) {
   DensityReport report;
   double evaluations = 0;
-  std::visit(
-      [&](const auto& k) {
-        using K = std::decay_t<decltype(k)>;
-        Kokkos::parallel_reduce("swe::density", Range(0, clusters.size()),
-                                SolveDensity<D, K>{{k, clusters, near, walls, p}, imposed, options}, evaluations,
-                                Kokkos::Max<int>(report.newton_max), report.outgrown, report.capped, report.floored);
-      },
-      kernel);
+  const auto solve = [&](const auto& k, auto single) {
+    using Solve = SolveDensity<D, std::decay_t<decltype(k)>, decltype(single)::value>;
+    Kokkos::parallel_reduce("swe::density", balanced(clusters.size()), Solve{{k, clusters, near, walls, p}, imposed, options},
+                            evaluations, Kokkos::Max<int>(report.newton_max), report.outgrown, report.capped, report.floored);
+  };
+  std::visit([&](const auto& k) { p.single.on() ? solve(k, std::true_type{}) : solve(k, std::false_type{}); }, kernel);
   report.newton_mean = clusters.size() > 0 ? evaluations / clusters.size() : 0;
   return report;
 }

@@ -2,7 +2,6 @@
 
 namespace freshet::swe {
 
-template void internal_force<1>(const AnyKernel<1>&, const ClusterSet&, const NeighbourView&, const WallView<1>&,
-                                const Particles<1>&, const AnyStabilisation&);
+template void sum_force<1, false>(const ForceRequest<1>&);
 
 }  // namespace freshet::swe

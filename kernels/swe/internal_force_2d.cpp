@@ -2,7 +2,6 @@
 
 namespace freshet::swe {
 
-template void internal_force<2>(const AnyKernel<2>&, const ClusterSet&, const NeighbourView&, const WallView<2>&,
-                                const Particles<2>&, const AnyStabilisation&);
+template void sum_force<2, false>(const ForceRequest<2>&);
 
 }  // namespace freshet::swe

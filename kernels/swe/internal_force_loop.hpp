@@ -1,25 +1,61 @@
-// The loop of internal_force.hpp, compiled once per dimension so that the two sets of variants compile side by side.
+// The pair loop of internal_force.hpp.
 #pragma once
-#include "kernels/swe/internal_force.hpp"
+#include "cellgrid/balanced.hpp"
+#include "kernels/swe/force_request.hpp"
+#include "kernels/swe/single.hpp"
 
 namespace freshet::swe {
+
 namespace {
 
-template <int D>
+template <class V, int D>
 struct ForceSums {
-  Vec<Lane, D> t;
-  Lane signal{0.0};
+  Vec<V, D> t;
+  V signal{0.0};
 };
 
-template <int D>
+template <class V, int D>
 struct Here {
-  Vec<Lane, D> x, v;
-  Lane rho, h, inv_h, pressure, celerity, weight_per_mass;
-  Sym<Lane, D> strain;
-  Vec<Lane, D> depth_slope;
+  Vec<V, D> x, v;
+  V rho, h, inv_h, pressure, celerity, weight_per_mass;
+  Sym<V, D> strain;
+  Vec<V, D> depth_slope;
 };
 
-template <int D, class K, class Stabilise>
+// The neighbour's end of a pair; what a stabilisation does not use is not loaded.
+template <class V, int D>
+struct There {
+  Vec<V, D> x_ij, v;
+  V m, rho, h, inv_h, pressure, celerity, weight;
+  Sym<V, D> strain;
+  Vec<V, D> depth_slope;
+};
+
+template <class K, class Stabilise, class V, int D>
+KOKKOS_FORCEINLINE_FUNCTION void add_pair(const K& kernel, const Stabilise& stabilise, const Here<V, D>& i, const There<V, D>& j,
+                                          ForceSums<V, D>& sum) {
+  const V r2 = dot(j.x_ij, j.x_ij) + least_square<V>, rho_sum = i.rho + j.rho;
+  const V inv = rsqrt(rho_sum * rho_sum * r2);  // 1 / ((rho_i + rho_j) r)
+  const V inv_r = inv * rho_sum, r = r2 * inv_r;
+  const V q_i = r * i.inv_h, q_j = r * j.inv_h;
+  PairState<V> pair{dot(i.v - j.v, j.x_ij), 0.0, 0.0, i.celerity + j.celerity, inv, r2, i.h + j.h, i.rho, j.rho, 0.0, 0.0,
+                    i.pressure, j.pressure};
+  if constexpr (Stabilise::velocity_gradient) {
+    pair.slope_i = quadratic(i.strain, j.x_ij);
+    pair.slope_j = quadratic(j.strain, j.x_ij);
+  }
+  if constexpr (Stabilise::depth_gradient) {
+    pair.depth_slope_i = dot(i.depth_slope, j.x_ij);
+    pair.depth_slope_j = dot(j.depth_slope, j.x_ij);
+  }
+  const PairPressure<V> pressure = stabilise(pair);
+  const V from_i = pressure.i * (j.m * i.weight_per_mass) * kernel.slope(q_i);
+  const V from_j = pressure.j * j.weight * kernel.slope(q_j);
+  sum.t += ((from_i + from_j) * inv_r) * j.x_ij;
+  sum.signal = larger_where(smaller(q_i, q_j) < V(kernel.support), sum.signal, size_of(pair.jump) * inv_r);
+}
+
+template <int D, class K, class Stabilise, bool single>
 struct InternalForce {
   K kernel;
   ClusterSet clusters;
@@ -28,50 +64,65 @@ struct InternalForce {
   Particles<D> p;
   Stabilise stabilise;
 
-  KOKKOS_FORCEINLINE_FUNCTION void add_pair(const Here<D>& i, int j, ForceSums<D>& sum) const {
-    const Vec<Lane, D> x_ij = i.x - broadcast(at(p.x, j)), v_ij = i.v - broadcast(at(p.v_pred, j));
-    const Lane r2 = dot(x_ij, x_ij) + tiny_square, rho_j = p.rho(j), rho_sum = i.rho + rho_j;
-    const Lane inv = rsqrt(rho_sum * rho_sum * r2);  // 1 / ((rho_i + rho_j) r)
-    const Lane inv_r = inv * rho_sum, r = r2 * inv_r;
-    const Lane q_i = r * i.inv_h, q_j = r * p.inv_h(j);
-    PairState<Lane> pair{dot(v_ij, x_ij), 0.0, 0.0, i.celerity + p.celerity(j), inv, r2, i.h + p.h(j), i.rho, rho_j, 0.0, 0.0,
-                         i.pressure, p.pressure(j)};
-    if constexpr (Stabilise::velocity_gradient) {
-      pair.slope_i = quadratic(i.strain, x_ij);
-      pair.slope_j = quadratic(broadcast(p.strain, j), x_ij);
+  KOKKOS_FORCEINLINE_FUNCTION There<Lane, D> there(const Vec<Lane, D>& x, int j) const {
+    There<Lane, D> t{x - broadcast(at(p.x, j)), broadcast(at(p.v_pred, j)), p.m(j), p.rho(j), p.h(j), p.inv_h(j), p.pressure(j),
+                     p.celerity(j), p.weight(j), {}, {}};
+    if constexpr (Stabilise::velocity_gradient) t.strain = broadcast(p.strain, j);
+    if constexpr (Stabilise::depth_gradient) t.depth_slope = broadcast(at(p.depth_slope, j));
+    return t;
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION There<Twin, D> there(const Vec<Lane, D>& x, int a, int b, Twin keep) const {
+    using S = StateSlot;
+    const TwinRecord<16> j(p.single.state(a), p.single.state(b));
+    There<Twin, D> t{apart(x, p.x, a, b), two_vectors<S::v, D>(j), keep * j.get<S::m>(), j.get<S::rho>(), j.get<S::h>(),
+                     j.get<S::inv_h>(), j.get<S::pressure>(), j.get<S::celerity>(), keep * j.get<S::weight>(), {}, {}};
+    if constexpr (Stabilise::velocity_gradient) t.strain = two_matrices<S::strain, D>(j);
+    if constexpr (Stabilise::depth_gradient) t.depth_slope = two_vectors<S::depth_slope, D>(j);
+    return t;
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION static Here<Twin, D> in_single(const Here<Lane, D>& i) {
+    return {{}, twice(i.v), twice(i.rho), twice(i.h), twice(i.inv_h), twice(i.pressure), twice(i.celerity),
+            twice(i.weight_per_mass), twice(i.strain), twice(i.depth_slope)};
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION ForceSums<Lane, D> all(int c, const Here<Lane, D>& i) const {
+    if constexpr (single) {
+      const ForceSums<Twin, D> sum = walk_single(c, i.x, in_single(i));
+      return {folded(sum.t), folded_largest(sum.signal)};
+    } else {
+      return walk(c, i, [](int) { return true; });
     }
-    if constexpr (Stabilise::depth_gradient) {
-      pair.depth_slope_i = dot(i.depth_slope, x_ij);
-      pair.depth_slope_j = dot(broadcast(at(p.depth_slope, j)), x_ij);
-    }
-    const PairPressure<Lane> pressure = stabilise(pair);
-    const Lane from_i = pressure.i * (p.m(j) * i.weight_per_mass) * kernel.slope(q_i);
-    const Lane from_j = pressure.j * p.weight(j) * kernel.slope(q_j);
-    sum.t += ((from_i + from_j) * inv_r) * x_ij;
-    sum.signal = larger_where(smaller(q_i, q_j) < Lane(kernel.support), sum.signal, size_of(pair.jump) * inv_r);
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION ForceSums<Twin, D> walk_single(int c, const Vec<Lane, D> x, const Here<Twin, D> i) const {
+    ForceSums<Twin, D> sum;
+    for_each_twin(near, c, [&](int a, int b, Twin keep) { add_pair(kernel, stabilise, i, there(x, a, b, keep), sum); });
+    return sum;
   }
 
   // The sums over the neighbours that count. A local result and a copy of i: what has an address known elsewhere would be
   // written and read again at every pair.
   template <class Counts>
-  KOKKOS_FORCEINLINE_FUNCTION ForceSums<D> walk(int c, const Here<D> i, const Counts& counts) const {
-    ForceSums<D> sum;
+  KOKKOS_FORCEINLINE_FUNCTION ForceSums<Lane, D> walk(int c, const Here<Lane, D> i, const Counts& counts) const {
+    ForceSums<Lane, D> sum;
     near.for_each(c, [&](int j) {
-      if (counts(j)) add_pair(i, j, sum);
+      if (counts(j)) add_pair(kernel, stabilise, i, there(i.x, j), sum);
     });
     return sum;
   }
 
   // The force of the neighbours' images: what i's image feels from the neighbours, mirrored back.
-  KOKKOS_INLINE_FUNCTION void add_images(int c, const Here<D>& i, ForceSums<D>& sum) const {
+  KOKKOS_INLINE_FUNCTION void add_images(int c, const Here<Lane, D>& i, ForceSums<Lane, D>& sum) const {
     walls.for_each_image(c, i.x, [&](const Image<D>& image, Lane weight, const WallSegment& segment) {
-      Here<D> other = i;
+      Here<Lane, D> other = i;
       other.x = image(i.x);
       other.v = image.turn(i.v);
       if constexpr (Stabilise::velocity_gradient) other.strain = image.turn(i.strain);
       if constexpr (Stabilise::depth_gradient) other.depth_slope = image.turn(i.depth_slope);
       const double ahead = walls.foremost(segment, other.x), reach = kernel.support * largest(i.h);
-      const ForceSums<D> felt = walk(c, other, [&](int j) {
+      const ForceSums<Lane, D> felt = walk(c, other, [&](int j) {
         return walls.mirrors(segment, at(p.x, j), larger(reach, kernel.support * p.h(j)) + ahead);
       });
       sum.t += weight * image.turn_back(felt.t);
@@ -80,7 +131,7 @@ struct InternalForce {
   }
 
   // Virtual particles: i's own state and slopes, the velocity mirrored.
-  KOKKOS_INLINE_FUNCTION void add_wall_point(const Here<D>& i, int k, Lane mass, ForceSums<D>& sum) const {
+  KOKKOS_INLINE_FUNCTION void add_wall_point(const Here<Lane, D>& i, int k, Lane mass, ForceSums<Lane, D>& sum) const {
     const Vec<Lane, D> to_wall = i.x - broadcast(at(walls.x, k)), normal_velocity = broadcast(walls.projector, k) * i.v;
     const Lane r2 = dot(to_wall, to_wall) + tiny_square, inv_r = rsqrt(r2);
     const Lane closing = 2.0 * dot(to_wall, normal_velocity), slope = quadratic(i.strain, to_wall);
@@ -97,12 +148,12 @@ struct InternalForce {
   KOKKOS_INLINE_FUNCTION void operator()(int c) const {
     const Lanes me = clusters(c);
     const Lane m = me.load(p.m);
-    Here<D> i{me.load(p.x), me.load(p.v_pred), me.load(p.rho), me.load(p.h), me.load(p.inv_h), me.load(p.pressure),
+    Here<Lane, D> i{me.load(p.x), me.load(p.v_pred), me.load(p.rho), me.load(p.h), me.load(p.inv_h), me.load(p.pressure),
               me.load(p.celerity), me.load(p.weight) / m, {}, {}};
     if constexpr (Stabilise::velocity_gradient) i.strain = me.load(p.strain);
     if constexpr (Stabilise::depth_gradient) i.depth_slope = me.load(p.depth_slope);
-    const ForceSums<D> pairs = walk(c, i, [](int) { return true; });
-    ForceSums<D> sum = pairs;
+    const ForceSums<Lane, D> pairs = all(c, i);
+    ForceSums<Lane, D> sum = pairs;
     if (walls.on && walls.mirror) {
       add_images(c, i, sum);
     } else if (walls.on) {
@@ -116,15 +167,15 @@ struct InternalForce {
 
 }  // namespace
 
-template <int D>
-void internal_force(const AnyKernel<D>& kernel, const ClusterSet& clusters, const NeighbourView& near, const WallView<D>& walls,
-                    const Particles<D>& p, const AnyStabilisation& stabilisation) {
+template <int D, bool single>
+void sum_force(const ForceRequest<D>& request) {
   std::visit(
       [&](const auto& k, const auto& stabilise) {
-        using Force = InternalForce<D, std::decay_t<decltype(k)>, std::decay_t<decltype(stabilise)>>;
-        Kokkos::parallel_for("swe::force", Range(0, clusters.size()), Force{k, clusters, near, walls, p, stabilise});
+        using Force = InternalForce<D, std::decay_t<decltype(k)>, std::decay_t<decltype(stabilise)>, single>;
+        Kokkos::parallel_for("swe::force", balanced(request.clusters.size()),
+                             Force{k, request.clusters, request.near, request.walls, request.p, stabilise});
       },
-      kernel, stabilisation);
+      request.kernel, request.stabilisation);
 }
 
 }  // namespace freshet::swe

@@ -4,8 +4,12 @@
 
 namespace freshet::swe {
 
-KOKKOS_FORCEINLINE_FUNCTION void add_square(Sym<Lane, 1>& m, const Vec<Lane, 1>& fd, const Vec<Lane, 1>& d) { m.xx += fd.x * d.x; }
-KOKKOS_FORCEINLINE_FUNCTION void add_square(Sym<Lane, 2>& m, const Vec<Lane, 2>& fd, const Vec<Lane, 2>& d) {
+template <class V>
+KOKKOS_FORCEINLINE_FUNCTION void add_square(Sym<V, 1>& m, const Vec<V, 1>& fd, const Vec<V, 1>& d) {
+  m.xx += fd.x * d.x;
+}
+template <class V>
+KOKKOS_FORCEINLINE_FUNCTION void add_square(Sym<V, 2>& m, const Vec<V, 2>& fd, const Vec<V, 2>& d) {
   m.xx += fd.x * d.x;
   m.xy += fd.x * d.y;
   m.yy += fd.y * d.y;

@@ -1,5 +1,7 @@
 #include "kernels/swe/motion.hpp"
 
+#include "kernels/swe/blocks.hpp"
+
 namespace freshet::swe {
 namespace {
 
@@ -8,10 +10,6 @@ KOKKOS_FORCEINLINE_FUNCTION Lane growth(Lane z) {
   const Lane half = 0.5 * clamp(z, Lane(-0.5), Lane(0.5));
   return (1.0 + half) / (1.0 - half);
 }
-
-// Particles without regard to rows, `lanes` at a time.
-KOKKOS_FORCEINLINE_FUNCTION Lanes block(int b, int n) { return {b * lanes, smaller(lanes, n - b * lanes)}; }
-Range blocks(int n) { return Range(0, (n + lanes - 1) / lanes); }
 
 // What the bed adds to a = -t, storing its level: -B (g + v.k v - t.B) / (1 + B.B); classical: -g B, without curvature.
 template <int D>
@@ -43,7 +41,7 @@ void kick_and_drift(const Particles<D>& p, const MotionOptions<D>& options, int 
   const bool friction = options.friction.has_value();
   const ImposedLanes imposed = options.imposed;
   const Field<double> drag_field = options.drag;
-  Kokkos::parallel_for("swe::kick_and_drift", blocks(n), KOKKOS_LAMBDA(int b) {
+  Kokkos::parallel_for("swe::kick_and_drift", Range(0, blocks(n)), KOKKOS_LAMBDA(int b) {
         const Lanes me = block(b, n);
         const Lane moved = imposed(me), half_dt = 0.5 * dt;
         const Vec<Lane, D> half_kick = half_dt * me.load(f.a);
@@ -74,7 +72,7 @@ double accelerate_and_kick(const Particles<D>& p, const MotionOptions<D>& option
   const bool walled = options.walled;
   double crossing = 0;
   Kokkos::parallel_reduce(
-      "swe::accelerate", blocks(n),
+      "swe::accelerate", Range(0, blocks(n)),
       KOKKOS_LAMBDA(int block_index, double& least) {
         const Lanes me = block(block_index, n);
         const Lane h = me.load(f.h);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/swe/blocks.hpp"
 #include "kernels/swe/open_exterior.hpp"
 
 namespace freshet::swe {
@@ -11,6 +12,14 @@ namespace {
 // Columns of boundary particles: the support and two more.
 double columns(const OpenBufferOptions& o) { return std::max(5.0, std::ceil(o.support * o.eta) + 2); }
 constexpr double most_wedge = 4;  // x the buffer's depth: sharper mitres are cut off
+
+// What meets a closed row is reflected, like at a wall.
+template <int D>
+KOKKOS_FORCEINLINE_FUNCTION void bounce(const Particles<D>& f, int i, double inside, const Vec<double, D>& inward) {
+  put(f.x, i, at(f.x, i) + (-2 * inside) * inward);
+  const VecField<double, D> velocities[2] = {f.v, f.v_pred};
+  for (const VecField<double, D>& v : velocities) put(v, i, at(v, i) + (-2 * smaller(dot(at(v, i), inward), 0.0)) * inward);
+}
 
 // Rows beyond an end that a widening buffer needs.
 int wedge_rows(double spread, double buffer, double width) {
@@ -102,7 +111,9 @@ void OpenBuffer<D>::observe(const Rows& rows, const Particles<D>& p, const Field
           for (int j = begin; j < end; ++j) {
             if (kind(j) != 0) continue;
             const Vec<double, D> d = at(f.x, j) - here;
-            const double w = f.m(j) / f.rho(j) * power<D>(f.inv_h(j)) * Kernel<D>::at(root(dot(d, d)) * f.inv_h(j)).w;
+            const double q = root(dot(d, d)) * f.inv_h(j);
+            if (q >= Kernel<D>::support) continue;
+            const double w = f.m(j) / f.rho(j) * power<D>(f.inv_h(j)) * Kernel<D>::at(q).w;
             weight += w;
             const Vec<double, D> there = at(f.x, j), v = at(f.v, j);
             const double u = dot(v, at_line.line.inward), depth = f.rho(j) / summed, b = bed_at<D>(ground, there);
@@ -132,7 +143,7 @@ Crossed OpenBuffer<D>::convert(FieldSet& particles, const Particles<D>& p, const
   const double trim = 0.75 * options_.spacing, cut = 0.25 * options_.spacing, reach = 1.25 * options_.support;
   const double deepest = 2 * buffer_, summed = options_.summed;
   const int owner = owner_;
-  const auto crossed = sums_.template sum<2>("open::convert", particles.size(), KOKKOS_LAMBDA(int i) {
+  const auto convert_one = KOKKOS_LAMBDA(int i)->Kokkos::Array<double, 2> {
         Kokkos::Array<double, 2> in_out{};
         const Vec<double, D> x = at(f.x, i);
         const double inside = at_line.inside(x);
@@ -141,10 +152,7 @@ Crossed OpenBuffer<D>::convert(FieldSet& particles, const Particles<D>& p, const
         const int r = at_line.row(x);
         const OpenRow state = row(r);
         if (leaves && state.closed) {
-          put(f.x, i, x + (-2 * inside) * at_line.line.inward);
-          const VecField<double, D> velocities[2] = {f.v, f.v_pred};
-          for (const VecField<double, D>& v : velocities)
-            put(v, i, at(v, i) + (-2 * smaller(dot(at(v, i), at_line.line.inward), 0.0)) * at_line.line.inward);
+          bounce<D>(f, i, inside, at_line.line.inward);
           return in_out;
         }
         if (!leaves && inside >= 0 && at_line.on_line(r)) {  // enters with the depth on the line, not that of where it was last
@@ -174,6 +182,13 @@ Crossed OpenBuffer<D>::convert(FieldSet& particles, const Particles<D>& p, const
         // Water that left stretched stands in fewer, longer particles: they must still fill the support of what follows.
         if (-inside > larger(part.to + trim, reach * f.h(i)) || short_of || !at_line.beside(x, 1)) f.id(i) = -1;
         return in_out;
+      };
+  const int n = particles.size();
+  const auto crossed = sums_.template sum<2, 64>("open::convert", blocks(n), KOKKOS_LAMBDA(int b) {
+        const Lanes me = block(b, n);
+        const Lane outside = dot(broadcast(at_line.line.origin) - me.load(f.x), broadcast(at_line.line.inward));
+        const bool concerned = any((Lane(0.0) < outside) | owned_by(owner, me.load(kind)));  // hardly any is
+        return concerned ? sum_of(me, convert_one) : Kokkos::Array<double, 2>{};
       });
   return {crossed[0], crossed[1]};
 }
@@ -192,11 +207,16 @@ int OpenBuffer<D>::count_room(const FieldSet& particles, const VecField<double, 
         farthest(r) = extent(r).from - 0.5 * dx;
         nearest(r) = none;
       });
-  Kokkos::parallel_for("open::edges", Range(0, particles.size()), KOKKOS_LAMBDA(int i) {
-        if (id(i) < 0 || kind(i) != owner) return;
-        const int r = at_line.row(at(x, i));
-        Kokkos::atomic_fetch_max(&farthest(r), -at_line.inside(at(x, i)));
-        Kokkos::atomic_fetch_min(&nearest(r), -at_line.inside(at(x, i)));
+  const int n = particles.size();
+  Kokkos::parallel_for("open::edges", Range(0, blocks(n)), KOKKOS_LAMBDA(int b) {
+        const Lanes me = block(b, n);
+        if (!any(owned_by(owner, me.load(kind)))) return;
+        for (int i = me.first; i < me.first + me.count; ++i) {
+          if (id(i) < 0 || kind(i) != owner) continue;
+          const int r = at_line.row(at(x, i));
+          Kokkos::atomic_fetch_max(&farthest(r), -at_line.inside(at(x, i)));
+          Kokkos::atomic_fetch_min(&nearest(r), -at_line.inside(at(x, i)));
+        }
       });
   const Field<int> room = room_, inner_room = inner_room_;
   int added = 0;

@@ -10,7 +10,7 @@ namespace freshet::swe {
 
 template <int D>
 KOKKOS_FORCEINLINE_FUNCTION double bed_at(const std::optional<Bed<D>>& bed, const Vec<double, D>& x) {
-  return bed ? bed->spline.at(x).b : 0.0;
+  return bed ? bed->spline.sloped_at(x).b : 0.0;
 }
 
 // A place beside the line: how far inside [m], and how far its bed lies below that on the line [m].

@@ -1,10 +1,18 @@
 // The particle fields of explicit SPH for the shallow water equations (Vacondio 2010, ch. 2).
 // Units: rho_w = 1, so that the density per area rho is the depth d [m] and the mass m is a volume [m3] (1-D: [m2], unit width).
 #pragma once
-#include "cellgrid/clusters.hpp"
+#include "cellgrid/twin.hpp"
 #include "kernels/smoothing.hpp"
 
 namespace freshet::swe {
+
+// What pairs see of a neighbour beside its position, in single precision (single.hpp); empty = pairs are summed in double.
+struct SingleCopies {
+  Field<SingleRecord<4>> motion;  // of the density
+  Field<SingleRecord<16>> state;  // of the force
+
+  KOKKOS_INLINE_FUNCTION bool on() const { return motion.extent(0) > 0; }
+};
 
 template <int D>
 struct Particles {
@@ -27,6 +35,7 @@ struct Particles {
   VecField<double, D> t;        // m/s2, pressure and stabilisation: (1/m) d pi_int/dx
   Field<double> signal;         // m/s, max_j |v_ij . x_ij| / r
   Field<int> id;
+  SingleCopies single;
 };
 
 // Smoothing length of a depth: rho h^D = kh.

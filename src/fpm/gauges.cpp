@@ -1,5 +1,6 @@
 // What gauges show: the highest free surface above or below a point, the pressure there, how far the water reaches.
 #include "kernels/fpm/surface_line.hpp"
+#include "src/fpm/nodes.hpp"
 #include "src/fpm/solver.hpp"
 
 namespace freshet::fpm {
@@ -12,16 +13,18 @@ struct Probe {
   bool wet = false;
 };
 
-Probe pressure_at(const Cloud& cloud, const Field<double>& p, const Point& at, double support) {
+// dx [m]: there
+Probe pressure_at(const Cloud& cloud, const Field<double>& p, const Point& at, double dx, double support) {
   const VecField<double, 2> place{Field<double>("fpm.gauge", 1), Field<double>("fpm.gauge", 1)};
   Kokkos::deep_copy(place.x, at[0]);
   Kokkos::deep_copy(place.y, at[1]);
-  const Field<double> value("fpm.gauge", 1);
+  const Field<double> value("fpm.gauge", 1), h("fpm.gauge", 1);
+  Kokkos::deep_copy(h, support * dx);
   Transfer transfer;
-  transfer.find(cloud.near, place, 1, support);
+  transfer.find(cloud.near, place, h, 1);
   transfer.apply(p, value);
   const Near near = cloud.near;
-  const double reach = wet_within * cloud.spacing;
+  const double reach = wet_within * dx;
   int points = 0;
   Kokkos::parallel_reduce("fpm::gauge_wet", Range(0, 1),
       KOKKOS_LAMBDA(int, int& count) { near.for_each({at[0], at[1]}, reach, [&](int, const Vec<double, 2>&, double) { ++count; }); }, points);
@@ -33,13 +36,13 @@ Probe pressure_at(const Cloud& cloud, const Field<double>& p, const Point& at, d
 std::vector<PointState> Solver::gauge(const std::vector<Gauge>& gauges) const {
   const Cloud cloud = management_.cloud(points_, order_);
   const Field<int> surface = points_.integer("surface");
-  const double radius = management_.rule().voronoi.surface * scene_.water.spacing;
+  const double radius = management_.rule().voronoi.surface;
   std::vector<PointState> states;
   for (const Gauge& g : gauges) {
     PointState state;
     state.thin_is_dry = false;
     if (g.what == Gauge::What::pressure) {
-      const Probe probe = pressure_at(cloud, points_.real("p"), g.at, scene_.fpm->support * scene_.water.spacing);
+      const Probe probe = pressure_at(cloud, points_.real("p"), g.at, spacing_at(scene_, g.at), scene_.fpm->support);
       state.reached = probe.wet, state.depth = probe.wet ? probe.pressure : 0;
     } else {
       const bool front = g.what == Gauge::What::front;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "src/errors.hpp"
+#include "src/fpm/nodes.hpp"
 #include "src/scene/random.hpp"
 #include "src/scene/water_region.hpp"
 
@@ -14,11 +15,6 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double off_outline = 0.6;  // x dx: lattice points closer than this to a slanting outline are left out
-
-struct Node {
-  Point x;
-  bool inside;  // off the outline: may be displaced
-};
 
 // Places along one side of a box: from end to end, or the middles of cells where the box fills a periodic domain.
 struct Ladder {
@@ -59,15 +55,6 @@ std::vector<Node> nodes_of_circle(const Body& body, double spacing) {
   return nodes;
 }
 
-bool encloses(const std::vector<Point>& polygon, const Point& p) {
-  bool inside = false;
-  for (std::size_t k = 0, l = polygon.size() - 1; k < polygon.size(); l = k++) {
-    const Point &a = polygon[k], &b = polygon[l];
-    if ((a[1] > p[1]) != (b[1] > p[1]) && p[0] < a[0] + (b[0] - a[0]) * (p[1] - a[1]) / (b[1] - a[1])) inside = !inside;
-  }
-  return inside;
-}
-
 double distance_to_outline(const std::vector<Point>& outline, const Point& p) {
   double least = 1e300;
   for (std::size_t k = 0; k < outline.size(); ++k) least = std::min(least, distance(p, outline[k], outline[(k + 1) % outline.size()]));
@@ -100,6 +87,13 @@ std::vector<Node> nodes_of_polygon(const Scene& scene, const Body& body) {
   return nodes;
 }
 
+std::vector<Node> nodes_of(const Scene& scene, const Body& body) {
+  if (scene.fpm->grading && body.radius > 0) throw SceneError("fpm.grading does not know body.circle; help: a polygon in its place");
+  if (scene.fpm->grading) return graded_nodes(scene, body.outline);
+  if (body.radius > 0) return nodes_of_circle(body, scene.water.spacing);
+  return body.lattice ? nodes_of_box(scene, body) : nodes_of_polygon(scene, body);
+}
+
 Point velocity_at(const Body& body, const Point& x) {
   const auto component = [&](const Function& f) { return f ? f(x[0], x[1]) : 0.0; };
   const Point v{component(body.velocity[0]), component(body.velocity[1])};
@@ -115,11 +109,8 @@ std::vector<StartPoint> place_points(const Scene& scene) {
   std::vector<StartPoint> points;
   std::uint64_t counter = 0;
   for (const Body& body : scene.fpm->bodies) {
-    const std::vector<Node> nodes = body.radius > 0 ? nodes_of_circle(body, scene.water.spacing)
-                                    : body.lattice  ? nodes_of_box(scene, body)
-                                                    : nodes_of_polygon(scene, body);
-    for (const Node& node : nodes) {
-      const double off = node.inside ? scene.water.disorder * scene.water.spacing : 0;
+    for (const Node& node : nodes_of(scene, body)) {
+      const double off = node.inside ? scene.water.disorder * spacing_at(scene, node.x) : 0;
       const double dx = off * random_offset(scene.water.seed, counter), dy = off * random_offset(scene.water.seed, counter + 1);
       counter += 2;
       const Point x{node.x[0] + dx, node.x[1] + dy};

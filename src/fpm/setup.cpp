@@ -30,11 +30,12 @@ PointRule point_rule(const Scene& scene) {
 }
 
 Scheme scheme_of(PressureScheme scheme) {
-  return scheme == PressureScheme::filtered ? Scheme::filtered : scheme == PressureScheme::incremental ? Scheme::incremental : Scheme::plain;
+  return scheme == PressureScheme::filtered ? Scheme::filtered : scheme == PressureScheme::incremental ? Scheme::incremental : scheme == PressureScheme::plain ? Scheme::plain : Scheme::projection;
 }
 
 FlowRule flow_rule(const Fpm& fpm) {
-  return {fpm.density, fpm.viscosity, {fpm.force[0], fpm.force[1]}, scheme_of(fpm.scheme), fpm.slip, fpm.tolerance};
+  return {fpm.density, fpm.viscosity, {fpm.force[0], fpm.force[1]}, scheme_of(fpm.scheme), fpm.slip, fpm.tolerance,
+          fpm.implicit_viscosity && fpm.viscosity > 0};
 }
 
 }  // namespace
@@ -43,6 +44,7 @@ Solver::Solver(const Scene& scene)
     : scene_(scene), order_(2, scene.water.spacing), period_(period_of(scene)), tank_(lines_of(scene.walls)),
       management_(point_rule(scene), tank_, period_, {{{"u", "v"}, {"u_old", "v_old"}}, {"p"}}),
       projection_(flow_rule(*scene.fpm), tank_.view()) {
+  if (scene.fpm->grading) grading_.emplace(scene);
   place();
   order_.sort(points_);
   management_.flag(points_, order_);
@@ -54,6 +56,7 @@ void Solver::make_fields() {
   for (const char* name : {"u", "v", "u_old", "v_old"}) points_.real(name, "m/s", Carry::state);
   points_.real("p", "Pa", Carry::state);
   points_.real("h", "m", Carry::state);
+  if (grading_) points_.real("dx", "m", Carry::state);
   points_.integer("id", "1", Carry::state);
   Points::make_fields(points_);
   for (const char* name : {"u_star", "v_star"}) points_.real(name, "m/s", Carry::no);
@@ -87,6 +90,7 @@ void Solver::place() {
   for (const char* name : {"u", "u_old"}) fill(name, [](const StartPoint& s) { return s.velocity[0]; });
   for (const char* name : {"v", "v_old"}) fill(name, [](const StartPoint& s) { return s.velocity[1]; });
   Kokkos::deep_copy(points_.real("h"), scene_.fpm->support * scene_.water.spacing);
+  if (grading_) grading_->size(points_);
   const Field<int> id = points_.integer("id");
   Kokkos::parallel_for("fpm::number", Range(0, points_.size()), KOKKOS_LAMBDA(int i) { id(i) = i; });
   next_id_ = points_.size();
@@ -98,7 +102,7 @@ void Solver::seat_on_walls() {
   const VecField<double, 2> x{points_.real("x"), points_.real("y")};
   const Field<int> kind = points_.integer("kind"), side = points_.integer("side");
   const TankView tank = tank_.view();
-  const double near = touching * scene_.water.spacing;
+  const double near = touching * scene_.water.spacing;  // where the spacing varies, that of the finest
   Kokkos::parallel_for("fpm::seat", Range(0, points_.size()), KOKKOS_LAMBDA(int i) {
         const Footing f = tank.nearest(at(x, i), near);
         kind(i) = in_fluid;
@@ -114,8 +118,9 @@ void Solver::seat_on_walls() {
 
 std::vector<std::string> Solver::features() const {
   std::vector<std::string> on{"incompressible flow, " + std::to_string(points_.size()) + " points at the start"};
-  if (scene_.fpm->viscosity > 0) on.push_back("viscosity");
+  if (scene_.fpm->viscosity > 0) on.push_back(scene_.fpm->implicit_viscosity ? "implicit viscosity" : "viscosity");
   if (tank_.size() > 0) on.push_back(scene_.fpm->slip ? "walls: slip" : "walls: no slip");
+  if (grading_) on.push_back("spacing by place");
   if (scene_.fpm->periodic[0] || scene_.fpm->periodic[1]) on.push_back("periodic domain");
   return on;
 }

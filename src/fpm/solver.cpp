@@ -10,6 +10,8 @@
 namespace freshet::fpm {
 namespace {
 
+constexpr double fastest_growth = 2;  // of the time step: backward differences of second order stand less than 1 + sqrt 2
+
 std::string unsolved(const linear::BiCgStabReport& solve, double tolerance) {
   char text[300];
   std::snprintf(text, sizeof text,
@@ -27,15 +29,22 @@ void Solver::step(double, double dt) {
   advect(bind(), period_, dt, ratio);
   {
     const Region region("fpm::points");
+    if (grading_) grading_->size(points_);
     const PointReport managed = management_.manage(points_, order_, next_id_);
     counts_.inserted += managed.step.inserted;
     counts_.merged += managed.step.merged;
     counts_.removed += managed.step.removed;
     counts_.landed += managed.step.landed;
+    if (grading_) grading_->size(points_);
   }
   const Flow flow = bind();
   const Neighbourhood<2>& around = finder_.find(order_.rows(), flow.x, points_.real("h"), flow.points, period_);
-  pressure_ = projection_.advance(around, order_.rows(), flow, Backward(dt, ratio)).poisson;
+  const ProjectionReport projected = projection_.advance(around, order_.rows(), flow, Backward(dt, ratio));
+  pressure_ = projected.poisson;
+  viscosity_ = projected.viscosity;
+  if (scene_.fpm->implicit_viscosity && !viscosity_.converged && scene_.fpm->viscosity > 0)
+    throw Diverged("the implicit viscosity was not solved in " + std::to_string(viscosity_.iterations) +
+                   " iterations\n  help: a smaller time.cfl, or fpm.diffusion = \"explicit\"");
   if (!pressure_.solve.converged)
     throw Diverged(unsolved(pressure_.solve, scene_.fpm->tolerance));
   report_.pressure_iterations = pressure_.solve.iterations;
@@ -49,7 +58,8 @@ double Solver::stable_dt() const {
   double dt = scene_.end_time;
   if (speed > 0) dt = std::min(dt, scene_.cfl * h / speed);
   if (force > 0) dt = std::min(dt, 0.04 * std::sqrt(h / force));
-  if (scene_.fpm->viscosity > 0) dt = std::min(dt, 0.125 * h * h / scene_.fpm->viscosity);
+  if (scene_.fpm->viscosity > 0 && !scene_.fpm->implicit_viscosity) dt = std::min(dt, 0.125 * h * h / scene_.fpm->viscosity);
+  if (last_dt_ > 0) dt = std::min(dt, fastest_growth * last_dt_);
   return std::isfinite(speed) ? dt : speed;
 }
 
@@ -79,8 +89,11 @@ Field<double> Solver::cell_areas() const {
   const int n = points_.size();
   if (area_.extent_int(0) < n) area_ = Field<double>("fpm.area", static_cast<std::size_t>(n + n / 2));
   const Field<double> area = area_;
-  const double radius = management_.rule().voronoi.surface * scene_.water.spacing;
-  Kokkos::parallel_for("fpm::cell_areas", Range(0, n), KOKKOS_LAMBDA(int i) { area(i) = wet_area(cell_of(cloud, i, radius), cloud, i, radius); });
+  const double radius = management_.rule().voronoi.surface;
+  Kokkos::parallel_for("fpm::cell_areas", Range(0, n), KOKKOS_LAMBDA(int i) {
+        const double r = radius * cloud.spacing_at(i);
+        area(i) = wet_area(cell_of(cloud, i, r), cloud, i, r);
+      });
   return area;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include "kernels/fpm/points.hpp"
 #include "kernels/fpm/projection.hpp"
+#include "src/fpm/grading.hpp"
 #include "src/method.hpp"
 
 namespace freshet::fpm {
@@ -26,6 +27,7 @@ class Solver : public Method {
   void restore(const ScalarState& scalars) override;
 
   const PoissonReport& pressure_report() const { return pressure_; }
+  const linear::BiCgStabReport& viscosity_report() const { return viscosity_; }
   const PointCount& counts() const { return counts_; }  // since t = 0
 
  private:
@@ -39,11 +41,13 @@ class Solver : public Method {
   RowOrder order_;
   Period period_;
   Tank tank_;
+  std::optional<Grading> grading_;
   Points management_;
   NeighbourFinder<2> finder_;
   Projection projection_;
   StepReport report_;
   PoissonReport pressure_;
+  linear::BiCgStabReport viscosity_;
   PointCount counts_;
   mutable OrderedSums sums_;
   mutable Field<double> area_;

@@ -80,6 +80,7 @@ bool Driver::run() {
       if (options_.each_step) options_.each_step(clock_);
     }
     monitor_.check_all(method_, clock_);
+    if (finished(clock_, scene_) && scene_.fpm) energy_watch_.record(method_.mechanics(), clock_);  // steps are few and long
   } catch (const Diverged& why) {
     give_up(why);
   }

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "cellgrid/clusters.hpp"
 #include "src/errors.hpp"
 #include "src/io/fluid.hpp"
 
@@ -52,19 +53,21 @@ Field<double> field_or(const FieldSet& fields, const char* name, const char* fal
 
 // Every comparison is false for NaN, so that "not (inside)" also finds values that are not finite.
 int count_bad(const FieldSet& fields, const Allowed& in) {
-  const Input<double> x = field_or(fields, "x", "x"), y = field_or(fields, "y", "x");
-  const Input<double> u = field_or(fields, "u", "u"), v = field_or(fields, "v", "u");
-  const Input<double> depth = field_or(fields, "depth", "x");
-  const int no_depth = find_real(fields, "depth") ? 0 : 1;
+  const Field<double> x = field_or(fields, "x", "x"), y = field_or(fields, "y", "x");
+  const Field<double> u = field_or(fields, "u", "u"), v = field_or(fields, "v", "u");
+  const Field<double> depth = field_or(fields, "depth", "x");
+  const double least = find_real(fields, "depth") ? -std::numeric_limits<double>::min() : -infinity;
   const double limit2 = in.speed * in.speed, second = find_real(fields, "v") ? 1 : 0;
+  const int n = fields.size();
   int bad = 0;
   Kokkos::parallel_reduce(
-      "run::monitor", Range(0, fields.size()),
-      KOKKOS_LAMBDA(int i, int& count) {
-        // Without short cuts: no branch keeps the compiler from vectors.
-        const int inside = (x(i) >= in.x_low) & (x(i) <= in.x_high) & (y(i) >= in.y_low) & (y(i) <= in.y_high);
-        const int sound = (no_depth | ((depth(i) >= 0) & (depth(i) < infinity))) & (u(i) * u(i) + second * v(i) * v(i) <= limit2);
-        count += 1 - (inside & sound);
+      "run::monitor", Range(0, (n + lanes - 1) / lanes),
+      KOKKOS_LAMBDA(int b, int& count_of_bad) {
+        const Lanes me{b * lanes, smaller(lanes, n - b * lanes)};
+        const Lane px = me.load(x), py = me.load(y), vx = me.load(u), vy = me.load(v), d = me.load(depth);
+        const auto inside = (Lane(in.x_low) < px) & (px < Lane(in.x_high)) & (Lane(in.y_low) < py) & (py < Lane(in.y_high));
+        const auto sound = (Lane(least) < d) & (d < Lane(infinity)) & (vx * vx + second * (vy * vy) < Lane(limit2));
+        count_of_bad += me.count - count(first_lanes(me.count) & inside & sound);
       },
       bad);
   return bad;

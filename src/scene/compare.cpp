@@ -3,6 +3,7 @@
 
 #include "src/reference/beach.hpp"
 #include "src/reference/bump.hpp"
+#include "src/reference/eddy.hpp"
 #include "src/reference/exact.hpp"
 #include "src/reference/radial.hpp"
 #include "src/reference/riemann.hpp"
@@ -95,6 +96,22 @@ Solution read_hump(Table& table, const Scene& scene) {
           shown(hump.amplitude) + " m on " + shown(hump.level) + " m, sigma = " + shown(hump.sigma) + " m"};
 }
 
+Solution read_eddy(Table& table, const Scene& scene) {
+  Eddy turning;
+  turning.level = table.number("level", "m").positive().required(1);
+  const double fastest = std::sqrt(2 * scene.gravity * turning.level / std::exp(1.0));
+  turning.speed = table.number("speed", "m/s")
+                      .check([fastest](double v) { return std::abs(v) < fastest; }, "between -" + rounded(fastest) + " and " + rounded(fastest),
+                             "a faster eddy of this depth has no water in its middle")
+                      .required(0.1);
+  turning.radius = table.number("radius", "m").positive().required(1);
+  const Point centre = table.point("centre", scene.domain.dimension).otherwise({0, 0});
+  turning.x0 = centre[0], turning.y0 = centre[1];
+  if (scene.bed.elevation) table.error("type", "the eddy has a flat bed", "leave out [bed]");
+  if (scene.domain.dimension == 1) table.error("type", "the eddy needs a 2-D domain");
+  return {eddy(turning, scene.gravity), shown(turning.speed) + " m/s at " + shown(turning.radius) + " m, " + shown(turning.level) + " m deep"};
+}
+
 Solution read_riemann(Table& table, const Scene& scene) {
   const auto state = [&](const char* key) {
     Value<std::vector<double>> given = table.numbers(key, "two numbers: depth in m, velocity in m/s");
@@ -166,6 +183,7 @@ Solution read_exact(Table& table, const Scene& scene) {
                                                      {"thacker-radial", read_radial},
                                                      {"radial-dam-break", read_radial_dam},
                                                      {"gaussian-hump", read_hump},
+                                                     {"eddy", read_eddy},
                                                      {"riemann", read_riemann},
                                                      {"beach-wave", read_beach},
                                                      {"rest", read_rest},

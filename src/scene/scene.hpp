@@ -128,6 +128,7 @@ struct Sph {
   double h_cap = 3.0;              // x h0
   Walling walls = Walling::automatic;
   bool slip = true;            // walls; false: they also hold the tangential velocity back
+  bool mixed = false;          // pairs in single precision, what is made of their sums in double
   bool well_balanced = false;  // still water over any bed stays at rest to round-off (kernels/swe/well_balanced.hpp)
 };
 
@@ -176,7 +177,7 @@ struct Merge {
 };
 
 // The incompressible Finite Pointset Method: a flow in a vertical plane, y upwards.
-enum class PressureScheme { filtered, incremental, plain };  // see kernels/fpm/projection.hpp
+enum class PressureScheme { filtered, incremental, plain, projection };  // see kernels/fpm/projection.hpp
 
 struct Body {
   std::vector<Point> outline;         // m, counter-clockwise, not closed; empty: a circle
@@ -192,7 +193,9 @@ struct Fpm {
   Point force{0, -9.81};   // m/s2
   double support = 3.2;    // h0 / dx
   double hole = 0.8;       // x dx: an empty circle larger than this gets a point
+  Function grading;        // x dx, the spacing by place: 1 to 4; absent = 1 everywhere
   PressureScheme scheme = PressureScheme::filtered;
+  bool implicit_viscosity = false;  // it does not limit the step then
   bool slip = true;        // walls; false: they also hold the tangential velocity
   double tolerance = 1e-9;  // of the pressure equation
   std::array<bool, 2> periodic{};

@@ -51,6 +51,16 @@ void read_walls(Table& section, Sph& sph) {
   sph.slip = slip.otherwise(sph.slip);
 }
 
+void read_precision(Table& section, Sph& sph) {
+  Value<bool> mixed = section.choice<bool>("precision", {{"double", false}, {"mixed", true}});
+  sph.mixed = mixed.otherwise(false);
+  constexpr double least = 1e-6;  // a few times the round-off of sums in single precision
+  if (sph.mixed && sph.newton_tolerance < least)
+    mixed.fail("sums of pairs in single precision cannot meet 'sph.newton_tolerance' below 1e-6", "raise it, or use \"double\"");
+  if (sph.mixed && sph.well_balanced)
+    mixed.fail("'sph.well_balanced' balances forces to round-off, pairs in single precision to 1e-7 of them", "use \"double\"");
+}
+
 }  // namespace
 
 bool read_sph(Table& section, Scene& scene) {
@@ -76,6 +86,7 @@ bool read_sph(Table& section, Scene& scene) {
   if (sph.well_balanced && acceleration == Acceleration::variational)
     section.error("well_balanced", "the well-balanced bed force belongs to the classical acceleration",
                   "remove 'sph.acceleration'");
+  read_precision(section, sph);
   sph.acceleration = sph.well_balanced ? Acceleration::classical : acceleration.value_or(sph.acceleration);
   return acceleration.has_value() || sph.well_balanced;
 }

@@ -145,7 +145,16 @@ Particles<D> Solver<D>::bind() const {
   p.id = f.integer("id");
   if (gradient_) p.strain = strain_field(f, dimension);
   if (depth_gradient_) p.depth_slope = vector_field(f, "depth_slope_x", "depth_slope_y", dimension);
+  p.single = single_;
   return p;
+}
+
+template <int D>
+void Solver<D>::make_room() {
+  const int room = particles_.capacity();
+  if (!scene_.sph.mixed || single_.motion.extent_int(0) == room) return;
+  single_.motion = Field<SingleRecord<4>>(Kokkos::view_alloc("single_motion", Kokkos::WithoutInitializing), room);
+  single_.state = Field<SingleRecord<16>>(Kokkos::view_alloc("single_state", Kokkos::WithoutInitializing), room);
 }
 
 template <int D>

@@ -4,6 +4,7 @@
 
 #include "kernels/swe/depth_gradient.hpp"
 #include "kernels/swe/lattice.hpp"
+#include "kernels/swe/single.hpp"
 #include "kernels/swe/well_balanced.hpp"
 #include "src/errors.hpp"
 
@@ -75,8 +76,11 @@ void Solver<D>::step(double t, double dt) {
 // Density, force and acceleration at the particles' positions, then the second half kick.
 template <int D>
 void Solver<D>::evaluate(double kick_dt, double ahead) {
+  make_room();
+  if (scene_.sph.mixed) copy_motion<D>(bind(), particles_.size());
   close_density(ahead);
   if (depth_gradient_) find_depth_gradient<D>(kernel_, clusters_, neighbours_.view(), bind());
+  if (scene_.sph.mixed) copy_state<D>(bind(), particles_.size());
   internal_force<D>(kernel_, clusters_, neighbours_.view(), wall_view(), bind(), stabilise_);
   if (scene_.sph.well_balanced && bed_)
     add_balanced_bed<D>(kernel_, clusters_, neighbours_.view(), wall_view(), bind(), *bed(), scene_.gravity);

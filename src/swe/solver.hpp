@@ -47,6 +47,7 @@ class Solver : public Method {
   void build_refinement();  // src/swe/refine.cpp
   Function initial_depth() const;
   void make_fields();
+  void make_room();  // for single_
   Particles<D> bind() const;
   MotionOptions<D> motion() const;
   Cost motion_cost() const;
@@ -64,6 +65,7 @@ class Solver : public Method {
   double support_;  // of the kernel, x h
   double margin_;   // growth of h within a step that the neighbour list covers; more makes it again
   FieldSet particles_;
+  SingleCopies single_;  // of a scene with mixed precision
   RowOrder order_;
   ClusterSet clusters_;
   NeighbourList neighbours_;

@@ -48,14 +48,18 @@ TEST_CASE("Still water without viscosity stays still for 10 s on jittered points
   CHECK(rest.pressure <= 1e-9);
 }
 
-TEST_CASE("Still water is lost by the incremental update as printed, kept by the plain one with consistent walls") {
-  const auto lost = [] {
+TEST_CASE("Still water is lost by both updates as printed, kept by the plain one with consistent walls") {
+  // The printed walls fix the slope of the pressure there: the incremental form cannot learn it, the plain one pushes water off them.
+  const auto lost = [](const std::string& scheme, double pressure) {
     try {
-      return after(1, {"fpm.scheme=incremental"}).pressure > 0.5;  // its walls cannot learn the pressure's slope
+      const Unrest rest = after(1, {"fpm.scheme=" + scheme});
+      CAPTURE(scheme, rest.speed, rest.pressure);
+      return rest.pressure > pressure && rest.speed > 1e-2;
     } catch (const Diverged&) {
       return true;
     }
   };
-  CHECK(lost());
+  CHECK(lost("incremental", 0.5));
+  CHECK(lost("projection", 0.03));
   CHECK(after(1, {"fpm.scheme=plain"}).speed <= 1e-8);
 }

@@ -13,6 +13,7 @@
 #include "kernels/swe/density.hpp"
 #include "kernels/swe/depth_gradient.hpp"
 #include "kernels/swe/internal_force.hpp"
+#include "kernels/swe/single.hpp"
 
 namespace freshet::test {
 
@@ -127,7 +128,7 @@ inline std::vector<Grain> still_water(int dimension, const std::vector<Point>& p
 inline swe::DensityOptions tight(int dimension) {
   swe::DensityOptions options{};
   options.gravity = 9.81;
-  options.tolerance = 1e-13;
+  options.tolerance = 1e-22;  // of the density; alpha is as good as its root
   options.margin = 4;
   options.bounds = {std::pow(1.6, -1.0 / dimension), 3};
   options.gradient = true;
@@ -151,6 +152,7 @@ class Cloud {
   ClusterSet clusters;
   NeighbourList neighbours;
   std::optional<Walls<D>> walls;
+  swe::SingleCopies single;
   int lists = 0;  // made by the last solve()
   AnyKernel<D> kernel = CubicSpline<D>{};
   double support() const { return std::visit([](const auto& k) { return k.support; }, kernel); }
@@ -182,6 +184,7 @@ class Cloud {
       p.strain = {fields.real("strain_xx")};
     else
       p.strain = {fields.real("strain_xx"), fields.real("strain_xy"), fields.real("strain_yy")};
+    p.single = single;
     return p;
   }
 
@@ -194,6 +197,7 @@ class Cloud {
     const swe::Particles<D> p = bind();
     for (int i = 0; i < fields.size(); ++i)
       p.h(i) = clamp(swe::smoothing_length<D>(p.kh(i), p.rho(i)), options.bounds.floor * p.h0(i), options.bounds.cap * p.h0(i));
+    if (single.on()) swe::copy_motion<D>(p, fields.size());
     for (lists = 1;; ++lists) {
       list(options.margin);
       const auto report = swe::solve_density<D>(kernel, clusters, neighbours.view(), wall_view(), p, {}, options);
@@ -209,7 +213,14 @@ class Cloud {
 
   void force(const swe::AnyStabilisation& stabilise) {
     swe::find_depth_gradient<D>(kernel, clusters, neighbours.view(), bind());
+    if (single.on()) swe::copy_state<D>(bind(), fields.size());
     swe::internal_force<D>(kernel, clusters, neighbours.view(), wall_view(), bind(), stabilise);
+  }
+
+  // Pairs in single precision from here on.
+  void use_single() {
+    single.motion = Field<SingleRecord<4>>("motion", static_cast<std::size_t>(fields.size()));
+    single.state = Field<SingleRecord<16>>("state", static_cast<std::size_t>(fields.size()));
   }
 
   // The field's values in the order of the ids.

@@ -19,7 +19,8 @@ struct FlowPoint {
 class FlowRun {
  public:
   explicit FlowRun(const std::string& name, const std::vector<std::string>& overrides = {})
-      : scene(read_scene(std::string(build::source_dir) + "/cases/" + name + ".toml", overrides)), solver(scene), events_(scene) {}
+      : FlowRun(read_scene(std::string(build::source_dir) + "/cases/" + name + ".toml", overrides)) {}
+  explicit FlowRun(const Scene& of) : scene(of), solver(scene), events_(scene) {}
 
   // With steps that end on the scene's output times and at t.
   void run_to(double t) {
@@ -30,6 +31,11 @@ class FlowRun {
       clock = {stride.until, clock.step + 1};
       most_iterations = std::max(most_iterations, solver.pressure_report().solve.iterations);
     }
+  }
+
+  // Of equal length, whatever the solver would choose.
+  void steps(int count, double dt) {
+    for (int k = 0; k < count; ++k) solver.step(clock.t, dt), clock = {clock.t + dt, clock.step + 1};
   }
 
   std::vector<FlowPoint> points() const {

@@ -9,7 +9,8 @@ using test::FlowPoints;
 
 namespace {
 
-constexpr double dx = 0.1, radius = 1.3 * dx;  // m
+constexpr double dx = 0.1;     // m
+constexpr double radius = 1.3;  // x dx
 
 // Water below the level 1 + slope x for 0 <= x <= 2 in a tank, a lone point above it, a lone one to its right.
 struct Tilted {

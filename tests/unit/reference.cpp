@@ -1,4 +1,5 @@
 // Exact solutions against the shallow-water equations themselves, by central differences.
+#include "src/reference/eddy.hpp"
 #include "src/reference/exact.hpp"
 #include "src/reference/ritter.hpp"
 
@@ -131,6 +132,21 @@ TEST_CASE("Thacker's planar and radial motions satisfy the equations wherever it
     }
   }
   CHECK(wet > 30);
+}
+
+TEST_CASE("A steady eddy satisfies the equations and turns fastest at its radius") {
+  const auto exact = eddy({1, 1.5, 2, 10, -3}, g);  // Froude number 0.5
+  for (const std::array<double, 2>& p : std::vector<std::array<double, 2>>{{11, -3}, {10.5, -2}, {8.5, -4.5}, {12, -3.1}}) {
+    const Residual r = residual(*exact, flat, {p[0], p[1], 0}, 1e-3, 0.1);  // truncates at (s / radius)^2 = 2.5e-7
+    CHECK(r.mass < 2e-6);
+    CHECK(r.momentum_x < 2e-6);
+    CHECK(r.momentum_y < 2e-6);
+  }
+  CHECK(exact->at(12, -3, 0).v == Approx(1.5));
+  CHECK(exact->at(12, -3, 0).u == 0);
+  CHECK(exact->at(12.1, -3, 0).v < 1.5);
+  CHECK(exact->at(11.9, -3, 0).v < 1.5);
+  CHECK(exact->at(10, -3, 7).depth == Approx(1 - 1.5 * 1.5 / (2 * g) * std::exp(1.0)));
 }
 
 TEST_CASE("Thacker's motions return after a period, and their bowl may lie elsewhere") {

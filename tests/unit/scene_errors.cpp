@@ -62,7 +62,7 @@ TEST_CASE("An unknown reference solution is an error") {
   check_error(pond("[compare]\nexact = { type = \"thacker\" }\n"),
               "scene.toml:9:18: error: 'compare.exact.type' is 'thacker'; it must be one of 'stoker', "
               "'ritter', 'thacker-planar', 'thacker-radial', 'radial-dam-break', "
-              "'gaussian-hump', 'riemann', 'beach-wave', 'rest', 'bump' or 'macdonald'\n"
+              "'gaussian-hump', 'eddy', 'riemann', 'beach-wave', 'rest', 'bump' or 'macdonald'\n"
               "  exact = { type = \"thacker\" }\n"
               "                   ^");
 }
@@ -213,7 +213,7 @@ TEST_CASE("A misspelt exact solution causes no errors where it is used") {
   CHECK(found.text ==
         "scene.toml:9:18: error: 'compare.exact.type' is 'thacker-plannar'; it must be one of 'stoker', "
         "'ritter', 'thacker-planar', 'thacker-radial', 'radial-dam-break', "
-        "'gaussian-hump', 'riemann', 'beach-wave', 'rest', 'bump' or 'macdonald'\n"
+        "'gaussian-hump', 'eddy', 'riemann', 'beach-wave', 'rest', 'bump' or 'macdonald'\n"
         "  exact = { type = \"thacker-plannar\" }\n"
         "                   ^\n"
         "  help: did you mean 'thacker-planar'?");

@@ -72,7 +72,7 @@ TEST_CASE("A wall that does not close is told with its gap") {
   CHECK(joined.notes.empty());
 }
 
-TEST_CASE("Walls that cannot be are errors that say what to do") {
+TEST_CASE("Walls and [sph] settings that cannot be are errors that say what to do") {
   CHECK(says(fault("[[wall]]\npolygon = [[0, 0], [1, 1], [1, 0], [0, 1]]\nwater = \"inside\"\n"), "crosses itself"));
   CHECK(says(fault("[[wall]]\npolygon = [[0, 0], [1, 1]]\nwater = \"inside\"\n"), "at least 3 points"));
   CHECK(says(fault("[[wall]]\npolygon = [[0, 0], [1, 0], [0, 1]]\n"), "water' is missing"));
@@ -80,5 +80,8 @@ TEST_CASE("Walls that cannot be are errors that say what to do") {
   CHECK(says(fault("[[wall]]\nline = [[0, 0], [1, 0]]\n[sph]\nwalls = \"mirror\"\nslip = false\n"), "cannot hold"));
   CHECK(says(fault("[sph]\nstabilise = \"two-shock\"\nstrength = 0.5\n"), "strength"));
   CHECK(says(fault("[sph]\nviscosity = [1, 0]\n"), "viscosity"));
+  CHECK(says(fault("[sph]\nprecision = \"single\"\n"), "mixed"));
+  CHECK(says(fault("[sph]\nprecision = \"mixed\"\nnewton_tolerance = 1e-9\n"), "1e-6"));
+  CHECK(says(fault("[sph]\nprecision = \"mixed\"\nwell_balanced = true\n"), "round-off"));
   CHECK(says(fault("[sph]\nwell_balanced = true\nacceleration = \"variational\"\n"), "well-balanced"));
 }

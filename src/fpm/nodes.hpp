@@ -1,0 +1,21 @@
+// Places for the points of a body whose spacing varies: along its outline, and inside wherever the places chosen before leave room.
+#pragma once
+#include <vector>
+
+#include "src/scene/scene.hpp"
+
+namespace freshet::fpm {
+
+struct Node {
+  Point x;      // m
+  bool inside;  // off the outline: may be displaced
+};
+
+bool encloses(const std::vector<Point>& polygon, const Point& p);
+
+// The spacing [m] at a place.
+double spacing_at(const Scene& scene, const Point& x);
+
+std::vector<Node> graded_nodes(const Scene& scene, const std::vector<Point>& outline);
+
+}  // namespace freshet::fpm
