@@ -1,6 +1,7 @@
 // Pair arithmetic in single precision, two neighbours at once: the first half of a Twin's lanes holds a cluster against one
 // neighbour, the second half against another. Positions are subtracted in double before they are rounded, so that a distance has
-// single precision wherever the water lies. On a GPU, or with one lane per cluster, a Twin is a float and holds one neighbour.
+// single precision wherever the water lies. On a GPU, or with one lane per cluster, a Twin is a double and holds one neighbour:
+// there only the records are in single precision.
 #pragma once
 #include "cellgrid/clusters.hpp"
 
@@ -13,21 +14,14 @@ struct alignas(4 * N) SingleRecord {
 };
 
 #if defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP) || defined(FRESHET_SCALAR)
-using Twin = float;
+using Twin = double;
 inline constexpr int neighbours_at_once = 1;
 
-KOKKOS_FORCEINLINE_FUNCTION float turned_by(float a, float b) { return b < 0 ? -a : a; }
-KOKKOS_FORCEINLINE_FUNCTION float size_of(float a) { return a < 0 ? -a : a; }
-KOKKOS_FORCEINLINE_FUNCTION float select(bool m, float a, float b) { return m ? a : b; }
-KOKKOS_FORCEINLINE_FUNCTION float larger_where(bool m, float a, float b) { return m && a < b ? b : a; }
-KOKKOS_FORCEINLINE_FUNCTION float root(float a) { return ::sqrtf(a); }
-KOKKOS_FORCEINLINE_FUNCTION float rsqrt(float a) { return 1.0f / ::sqrtf(a); }
-
-KOKKOS_FORCEINLINE_FUNCTION Twin twice(double a) { return static_cast<float>(a); }
+KOKKOS_FORCEINLINE_FUNCTION Twin twice(double a) { return a; }
 KOKKOS_FORCEINLINE_FUNCTION double folded(Twin a) { return a; }
 KOKKOS_FORCEINLINE_FUNCTION double folded_largest(Twin a) { return a; }
-KOKKOS_FORCEINLINE_FUNCTION Twin apart(double i, double a, double) { return static_cast<float>(i - a); }
-KOKKOS_FORCEINLINE_FUNCTION Twin kept(bool) { return 1.0f; }
+KOKKOS_FORCEINLINE_FUNCTION Twin apart(double i, double a, double) { return i - a; }
+KOKKOS_FORCEINLINE_FUNCTION Twin kept(bool) { return 1.0; }
 
 template <int N>
 class TwinRecord {
@@ -167,6 +161,6 @@ KOKKOS_FORCEINLINE_FUNCTION void for_each_twin(const NeighbourView& near, int cl
 template <class V>
 inline constexpr double least_square = tiny_square;
 template <>
-inline constexpr double least_square<Twin> = 1e-24;  // m2
+inline constexpr double least_square<pack<float, 2 * lanes>> = 1e-24;  // m2
 
 }  // namespace freshet

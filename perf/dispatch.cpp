@@ -144,7 +144,7 @@ class Recipe {
     const auto f = [&](const char* name) { return fields_.real(name); };
     return {{f("x"), f("y")}, {f("u"), f("v")}, {f("u_pred"), f("v_pred")}, {f("ax"), f("ay")}, f("mass"), f("h0"), f("kh"),
             f("depth"), f("depth_rate"), f("depth_growth"), f("h"), f("inv_h"), f("pressure"), f("celerity"), f("weight"),
-            {f("strain_xx"), f("strain_xy"), f("strain_yy")}, {}, {f("tx"), f("ty")}, f("signal"), fields_.integer("id")};
+            {f("strain_xx"), f("strain_xy"), f("strain_yy")}, {}, {f("tx"), f("ty")}, f("signal"), fields_.integer("id"), {}};
   }
 
   std::unique_ptr<Method> method_;  // holds the fields, as the scene starts

@@ -27,7 +27,7 @@ void ActiveSlices<D>::find(const Field<double>& depth, int supports) {
           if (near(s) != ring) return;
           pairs.for_each(s, [&](int, PairIndex j) {
             for (int l = 0; l < lanes; ++l) {
-              int& other = near(lane_of(j.j, l) / lanes);
+              int& other = near(static_cast<int>(lane_of(j.j, l)) / lanes);
               if (other == 0) other = ring + 1;
             }
           });

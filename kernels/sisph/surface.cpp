@@ -20,13 +20,14 @@ KOKKOS_FORCEINLINE_FUNCTION Lane run_up_depth(Lane depth, Lane bed, Lane dry_bed
 
 // a, f, b, the row sums, the residual of the iterate and the share of its outflow f that a particle has water for; returns the
 // slice's parts of |r|^2 and |b|^2, and how many of its particles would give more than they have.
-template <int D, bool drying>
+template <int D, bool drying, bool dragged>
 struct Coefficients {
   Geometry<D> g;
   SliceList active;
   Water<D> water;
   VecField<double, D> before;
   Field<double> last_depth, level;                 // of the Picard pass before
+  Field<double> drag;                              // dt gamma
   Field<double> a, flux, right, residual, row_sum, share;  // written
   double stiffness, dt, gravity;                   // g theta^2 dt^2
 
@@ -51,7 +52,8 @@ struct Coefficients {
     const Lanes me = g.pairs(s);
     const Vec<Lane, D> vi = me.load(before);
     const Lane hi = me.load(water.depth), li = larger(me.load(last_depth), Lane(0.0)), bi = me.load(water.bed), eta = me.load(level);
-    Lane outflow(0.0), given(0.0), sum_a(0.0), drawn(0.0);
+    Lane outflow(0.0), given(0.0), sum_a(0.0), drawn(0.0), drag_i(0.0);
+    if constexpr (dragged) drag_i = me.load(drag);
     g.pairs.for_each(s, [&](int e, PairIndex j) {
       const Lane hj = gather(water.depth.data(), j), lj = larger(gather(last_depth.data(), j), Lane(0.0));
       const Lane bj = drying ? gather(water.bed.data(), j) : Lane(0.0);
@@ -59,7 +61,8 @@ struct Coefficients {
       const Lane vn = dot(pair_velocity(vi, gather(before, j), hi + li, hj + lj), PairView::load(g.n, e));
       const Lane carried = 0.5 * (carried_depth(hi, hj, bi, bj, vn) + carried_depth(li, lj, bi, bj, vn));
       const Lane area = PairView::load(g.area, e), f = area * carried * vn;
-      const Lane aij = stiffness * area * face / PairView::load(g.distance, e);
+      Lane aij = stiffness * area * face / PairView::load(g.distance, e);
+      if constexpr (dragged) aij = aij / (1.0 + 0.5 * (drag_i + gather(drag.data(), j)));
       PairView::store(flux, e, f);
       PairView::store(a, e, aij);
       outflow += f;
@@ -163,13 +166,29 @@ struct LevelAlone {
 }  // namespace
 
 template <int D>
-FreeSurface<D>::FreeSurface(const Geometry<D>& g, const SurfaceOptions& options) : g_(g), options_(options) {
+FreeSurface<D>::FreeSurface(const Geometry<D>& g, const Rows& rows, const SurfaceOptions& options)
+    : g_(g), rows_(rows), options_(options) {
   const size_t pair_values = g.pairs.j.extent(0);
   a_ = Field<double>("sisph.a", pair_values);
   flux_ = Field<double>("sisph.flux", pair_values);
   for (Field<double>* f : {&level_, &depth_, &right_, &residual_, &change_, &row_sum_, &diagonal_, &inverse_, &share_})
     *f = Field<double>("sisph.surface", static_cast<size_t>(g.pairs.particles) + lanes);
   cg_.resize(g.pairs.particles);
+}
+
+template <int D>
+void FreeSurface<D>::set_meshed(bool on) {
+  mesh_on_ = on;
+  if (!on || mesh_) return;
+  mesh_.emplace();
+  mesh_->lay(rows_, g_.x);
+  for (Field<double>* f : {&wet_, &mesh_depth_}) *f = Field<double>("sisph.mesh", static_cast<size_t>(g_.pairs.particles) + lanes);
+}
+
+template <int D>
+const Field<double>& FreeSurface<D>::make_drag() {
+  if (drag_.extent(0) == 0) drag_ = Field<double>("sisph.drag", static_cast<size_t>(g_.pairs.particles) + lanes);
+  return drag_;
 }
 
 template <int D>
@@ -187,11 +206,12 @@ void FreeSurface<D>::start(const Water<D>& water) {
 }
 
 template <int D>
-template <bool drying>
+template <bool drying, bool dragged>
 typename FreeSurface<D>::Norms FreeSurface<D>::find_coefficients(const SliceList& active, const Water<D>& water,
                                                                  const VecField<double, D>& before, double dt) {
-  const Coefficients<D, drying> pass{g_, active, water, before, depth_, level_, a_, flux_, right_, residual_, row_sum_,
-                                     share_, options_.gravity * options_.theta * options_.theta * dt * dt, dt, options_.gravity};
+  const double stiffness = options_.gravity * options_.theta * options_.theta * dt * dt;
+  const Coefficients<D, drying, dragged> pass{g_, active, water, before, depth_, level_, drag_, a_, flux_, right_, residual_,
+                                              row_sum_, share_, stiffness, dt, options_.gravity};
   g_.images.fill(before);
   const auto sums = sums_.sum<3>("sisph::coefficients", active.count, pass);
   if (!drying || sums[2] == 0) return {std::sqrt(sums[0]), std::sqrt(sums[1])};
@@ -220,6 +240,35 @@ void FreeSurface<D>::set_diagonal(const SliceList& active, const Water<D>& water
       });
 }
 
+// The mesh of the rows that are wet; where a_ij vanishes with the water, so does its conductance.
+template <int D>
+void FreeSurface<D>::set_mesh(const SliceList& active, const Water<D>& water, double stiffness) {
+  const Geometry<D> g = g_;
+  const SliceList list = active;
+  const Field<double> level = level_, bed = water.bed, depth = depth_, drag = drag_, wet = wet_, conducts = mesh_depth_;
+  const bool dragged = drag.extent(0) > 0;
+  linear::fill(g_.pairs.particles, 0.0, wet_);
+  Kokkos::parallel_for("sisph::mesh_rows", Range(0, active.count), KOKKOS_LAMBDA(int k) {
+        const Lanes me = g.pairs(list(k));
+        Lane deep = larger(me.load(depth), Lane(0.0));
+        if (dragged) deep = deep / (1.0 + me.load(drag));
+        me.store(wet, free_lanes(g, me) * select(me.load(bed) < me.load(level), me.load(g.omega), Lane(0.0)));
+        me.store(conducts, deep);
+      });
+  mesh_->set(wet_, mesh_depth_, stiffness);
+}
+
+// change := (P + T)^-1 residual; returns the iterations.
+template <int D>
+int FreeSurface<D>::solve_linear(const SliceList& active, const Water<D>& water, const linear::CgOptions& options, double stiffness) {
+  const auto product = [&](const Field<double>& x, const Field<double>& y) {
+    return sums_.sum<1>("sisph::product", active.count, Product<D>{g_, active, a_, diagonal_, x, y})[0];
+  };
+  if (!mesh_on_) return cg_.solve(product, linear::Jacobi{inverse_}, residual_, change_, options).iterations;
+  set_mesh(active, water, stiffness);
+  return cg_.solve(product, linear::JacobiPlus<linear::ParticleMesh<D>>{inverse_, *mesh_}, residual_, change_, options).iterations;
+}
+
 // A film of 1e-20 m that only films touch has a row so small that no tolerance of CG settles its level; kilometres above the bed it
 // would be wet for Newton's method and undo the rest, again and again. This step keeps iterates on the side of the solution where
 // Newton's are, so that their convergence is monotone still.
@@ -240,16 +289,19 @@ template <int D>
 SurfaceReport FreeSurface<D>::solve(const SliceList& active, const Water<D>& water, const VecField<double, D>& before, double dt,
                                     bool drying) {
   const Region region("sisph::free_surface");
-  const Norms norms = drying ? find_coefficients<true>(active, water, before, dt) : find_coefficients<false>(active, water, before, dt);
+  const bool dragged = drag_.extent(0) > 0;
+  const Norms norms = drying ? dragged ? find_coefficients<true, true>(active, water, before, dt)
+                                       : find_coefficients<true, false>(active, water, before, dt)
+                      : dragged ? find_coefficients<false, true>(active, water, before, dt)
+                                : find_coefficients<false, false>(active, water, before, dt);
   // Asked for no less than round-off of |b|: water at rest needs no iteration.
   constexpr double round_off = 1e-14;
   const double least = round_off / smaller(options_.cg_tolerance, options_.newton_tolerance);
   if (first_) scale_ = larger(norms.residual, least * norms.right + 1e-300);
+  bool first_solve = first_;
   first_ = false;
+  const double stiffness = options_.gravity * options_.theta * options_.theta * dt * dt;
   const double scale = scale_, settled = 2 * options_.newton_tolerance;  // CG's own tolerance and as much again
-  const auto product = [&](const Field<double>& x, const Field<double>& y) {
-    return sums_.sum<1>("sisph::product", active.count, Product<D>{g_, active, a_, diagonal_, x, y})[0];
-  };
   linear::CgOptions cg;
   cg.tolerance = options_.cg_tolerance;
   cg.max_iterations = options_.cg_most;
@@ -259,7 +311,10 @@ SurfaceReport FreeSurface<D>::solve(const SliceList& active, const Water<D>& wat
   const Field<double> level = level_, change = change_;
   for (bool all_wet = true; report.newton < options_.newton_most; all_wet = false) {
     set_diagonal(active, water, all_wet);
-    report.iterations += cg_.solve(product, linear::Jacobi{inverse_}, residual_, change_, cg).iterations;
+    const int iterations = solve_linear(active, water, cg, stiffness);
+    report.iterations += iterations;
+    if (iterations > options_.mesh_from || (mesh_on_ && first_solve)) set_meshed(iterations > options_.mesh_until);
+    first_solve = false;
     ++report.newton;
     Kokkos::parallel_for("sisph::move_surface", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) { level(i) += change(i); });
     report.residual = find_residual(active, water) / scale;

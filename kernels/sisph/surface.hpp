@@ -2,10 +2,14 @@
 //   V(eta_i) + sum_j a_ij (eta_i - eta_j) = b_i,   V(eta) = omega max(0, eta - bed)                       (Casulli 2009)
 //   a_ij = g theta^2 dt^2 A_ij H_ij / d_ij,  f_ij = A_ij H_ij v_ij . n_ij,  b_i = omega H_i^n - dt sum_j f_ij
 // where some f may be cut so that no particle gives more than it has (b >= 0); solved for increments by Newton's method, all
-// particles wet in its first solve, with Jacobi CG inside and a nonlinear Jacobi step between two solves. The depth follows
+// particles wet in its first solve, with Jacobi CG inside (and the particle mesh, where waves cross many particles in a step) and a
+// nonlinear Jacobi step between two solves. The depth follows
 // from the fluxes F_ij = f_ij - (a_ij / dt)(eta_j - eta_i), which conserve mass to round-off at any tolerance.
 #pragma once
+#include <optional>
+
 #include "kernels/linear/cg.hpp"
+#include "kernels/linear/particle_mesh.hpp"
 #include "kernels/sisph/geometry.hpp"
 
 namespace freshet::sisph {
@@ -33,6 +37,9 @@ struct SurfaceOptions {
   double theta = 0.55;
   double cg_tolerance = 1e-6, newton_tolerance = 1e-6;  // of the residual that the step starts from
   int cg_most = 2000, newton_most = 60;
+  // Iterations of a solve above which the next ones have the particle-mesh correction, and of a step's first corrected solve up to
+  // which the next ones do without.
+  int mesh_from = 15, mesh_until = 3;
 };
 
 struct SurfaceReport {
@@ -44,7 +51,14 @@ struct SurfaceReport {
 template <int D>
 class FreeSurface {
  public:
-  FreeSurface(const Geometry<D>& g, const SurfaceOptions& options);
+  FreeSurface(const Geometry<D>& g, const Rows& rows, const SurfaceOptions& options);
+
+  // dt gamma of the friction, per particle (friction.hpp); to be asked for before the first step of a scene with friction.
+  const Field<double>& make_drag();
+
+  // Whether the next solve has the particle-mesh correction: part of the restart state. The mesh is made when first needed, once.
+  bool meshed() const { return mesh_on_; }
+  void set_meshed(bool on);
 
   // Views for the passes around the solve.
   const Field<double>& level() const { return level_; }    // eta as solved for, m: below the bed where dry
@@ -62,21 +76,28 @@ class FreeSurface {
   struct Norms {
     double residual, right;
   };
-  template <bool drying>
+  template <bool drying, bool dragged>
   Norms find_coefficients(const SliceList& active, const Water<D>& water, const VecField<double, D>& before, double dt);
   double find_residual(const SliceList& active, const Water<D>& water);
   void level_rows(const SliceList& active, const Water<D>& water);
+  int solve_linear(const SliceList& active, const Water<D>& water, const linear::CgOptions& options, double stiffness);
+  void set_mesh(const SliceList& active, const Water<D>& water, double stiffness);
   void set_diagonal(const SliceList& active, const Water<D>& water, bool all_wet);
 
   Geometry<D> g_;
+  Rows rows_;
   SurfaceOptions options_;
   linear::ConjugateGradients cg_;
   OrderedSums sums_;
+  std::optional<linear::ParticleMesh<D>> mesh_;
+  bool mesh_on_ = false;
+  Field<double> wet_, mesh_depth_;  // per particle, for the mesh: omega, or 0 where dry or held; m
   bool first_ = true;   // the next pass is the first of its step
   double scale_ = 1;    // |r| there: what residuals are measured in, whatever the depth below the waves
   Field<double> a_, flux_;                                       // per pair
   Field<double> level_, depth_, right_, residual_, change_;      // per particle
   Field<double> row_sum_, diagonal_, inverse_, share_;
+  Field<double> drag_;                                           // empty without friction
 };
 
 }  // namespace freshet::sisph

@@ -49,6 +49,7 @@ struct PairSums {
   }
 };
 
+using freshet::folded;  // of a plain number no lookup by its arguments finds it
 KOKKOS_FORCEINLINE_FUNCTION Gradient<Lane, 1> folded(const Gradient<Twin, 1>& a) { return {folded(a.xx)}; }
 KOKKOS_FORCEINLINE_FUNCTION Gradient<Lane, 2> folded(const Gradient<Twin, 2>& a) {
   return {folded(a.ux), folded(a.uy), folded(a.vx), folded(a.vy)};

@@ -1,10 +1,13 @@
 #include "src/run/strain.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace freshet {
 namespace {
+
+constexpr double round_off = 1e-10;  // of the energy at the start: water at rest has no kinetic energy to compare with
 
 std::string sentence(const char* what, double strained, double spans, double first, double worst, double limit) {
   char text[400];
@@ -69,7 +72,7 @@ void Strain::restore(const Values& values) {
 void EnergyWatch::record(const Mechanics& mechanics, const Clock& clock) {
   kinetic_ = std::max(kinetic_, mechanics.kinetic);
   gain_ = std::max(gain_, mechanics.kinetic + mechanics.potential - start_);
-  if (first_ < 0 && gain_ > most_gain * kinetic_) first_ = clock.t;
+  if (first_ < 0 && gain_ > most_gain * kinetic_ + round_off * std::abs(start_)) first_ = clock.t;
 }
 
 std::vector<std::string> EnergyWatch::warnings() const {

@@ -20,7 +20,8 @@ const Names<Walling>& walling_names() {
 const Names<Sisph::Momentum>& momentum_names() {
   using Momentum = Sisph::Momentum;
   static const Names<Momentum> names{
-      {"automatic", Momentum::automatic}, {"semi-lagrangian", Momentum::semi_lagrangian}, {"mass-flux", Momentum::mass_flux}};
+      {"automatic", Momentum::automatic}, {"semi-lagrangian", Momentum::semi_lagrangian},
+      {"mass-flux", Momentum::mass_flux}, {"conservative", Momentum::conservative}};
   return names;
 }
 

@@ -134,7 +134,8 @@ struct Sph {
 
 // The semi-implicit method on particles at rest.
 struct Sisph {
-  enum class Momentum { automatic, semi_lagrangian, mass_flux };  // automatic: mass_flux where some place starts dry
+  // automatic: mass_flux where some place starts dry; conservative: mass_flux with pairwise antisymmetric pressure
+  enum class Momentum { automatic, semi_lagrangian, mass_flux, conservative };
   struct Solver {
     double tolerance;  // of the residual that a step starts from
     int most;          // iterations

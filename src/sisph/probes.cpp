@@ -10,6 +10,8 @@ Totals Solver<D>::totals() const {
   totals.mass = sums_.template sum<1>("sisph::mass", particles_.size(), KOKKOS_LAMBDA(int i) {
     return Kokkos::Array<double, 1>{{free(i) * omega(i) * depth(i)}};
   })[0];
+  totals.flux = totals.inflow - totals.outflow;
+  totals.flux_gross = totals.inflow + totals.outflow;
   return totals;
 }
 
@@ -49,22 +51,28 @@ template <int D>
 std::vector<std::string> Solver<D>::features() const {
   std::vector<std::string> names{name_in(kernel_names(), scene_.sisph.kernel) + " kernel", "particles at rest",
                                  paths_ ? "velocity along particle paths" : "momentum carried by the mass fluxes"};
+  if (conservative_) names.push_back("conservative pressure");
   if (closure_.iterations > 0)
     names.push_back("pair areas closed in " + std::to_string(closure_.iterations) + " iterations, largest change " +
                     std::to_string(closure_.change));
   if (closure_.negative > 0) names.push_back(std::to_string(closure_.negative) + " pair areas below zero");
   if (bed_) names.push_back("bed");
   if (geometry_.images.count > 0) names.push_back("walls of mirror pairs");
-  if (held_ > 0) names.push_back("sides held at their state at t = 0");
+  if (scene_.manning) names.push_back("friction, implicit");
+  if (open_) names.push_back(std::to_string(scene_.boundaries.size()) + " open " + (scene_.boundaries.size() == 1 ? "boundary" : "boundaries"));
+  if (held_ > static_cast<int>(open_ ? open_->size() : 0)) names.push_back("sides held at their state at t = 0");
   return names;
 }
 
 template <int D>
 ScalarState Solver<D>::scalars() const {
   const auto number = [](auto value) { return static_cast<double>(value); };
-  return {{"passed", {passed_.inflow, passed_.outflow}},
+  ScalarState state{{"passed", {passed_.inflow, passed_.outflow}},
           {"solver", {number(report_.passes), number(report_.solves), number(report_.iterations), number(report_.unsettled),
                       number(report_.newton_max)}}};
+  if (open_) state["rim"] = open_->means();
+  state["mesh"] = {surface_->meshed() ? 1.0 : 0.0};
+  return state;
 }
 
 template <int D>
@@ -77,6 +85,8 @@ void Solver<D>::restore(const ScalarState& state) {
   report_.iterations = static_cast<long>(solver[2]);
   report_.unsettled = static_cast<long>(solver[3]);
   report_.newton_max = static_cast<int>(solver[4]);
+  surface_->set_meshed(state.at("mesh")[0] > 0);
+  if (open_) open_->set_means(state.at("rim"));
   measure_speeds();
 }
 

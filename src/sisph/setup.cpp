@@ -3,8 +3,9 @@
 #include <cmath>
 
 #include "src/errors.hpp"
+#include "src/scene/open_law.hpp"
 #include "src/scene/place.hpp"
-#include "src/scene/water_region.hpp"
+#include "src/sisph/beside.hpp"
 #include "src/sisph/solver.hpp"
 
 namespace freshet::sisph {
@@ -23,10 +24,9 @@ void require(bool holds, const std::string& what) {
 }
 
 void require_known(const Scene& scene) {
-  require(scene.boundaries.empty(), "open boundaries ([[boundary]])");
-  require(!scene.manning, "friction (bed.manning)");
   require(!scene.split && !scene.merge, "splitting and merging ([split], [merge])");
   require(scene.water.start == freshet::Water::Start::cells, "any water.start but \"cells\"");
+  require_on_sides(scene);
 }
 
 // Width of the cells along a side, as place() has it.
@@ -54,19 +54,6 @@ bool is_inside(const Domain& domain, const Point& p) {
   for (int axis = 0; axis < domain.dimension; ++axis)
     if (p[axis] < domain.low[axis] || p[axis] > domain.high[axis]) return false;
   return true;
-}
-
-// A place outside the domain before whose side there is a wall.
-bool is_behind_wall(const Scene& scene, const Point& p) {
-  Point side = p;
-  for (int axis = 0; axis < scene.domain.dimension; ++axis)
-    side[axis] = std::clamp(p[axis], scene.domain.low[axis], scene.domain.high[axis]);
-  return std::any_of(scene.walls.begin(), scene.walls.end(), [&](const Wall& wall) {
-    if (scene.domain.dimension == 1) return std::abs(wall.line[0][0] - side[0]) < 0.5 * scene.water.spacing;
-    for (std::size_t k = 0; k + 1 < wall.line.size(); ++k)
-      if (distance(side, wall.line[k], wall.line[k + 1]) < 0.5 * scene.water.spacing) return true;
-    return false;
-  });
 }
 
 template <class F>
@@ -104,6 +91,15 @@ MirrorWalls<D> walls_of(const Scene& scene, double support) {
 VecField<double, 1> vector_field(const FieldSet& f, const char* x, const char*, Vec<double, 1>) { return {f.real(x)}; }
 VecField<double, 2> vector_field(const FieldSet& f, const char* x, const char* y, Vec<double, 2>) { return {f.real(x), f.real(y)}; }
 
+// see(i, place) for the particles.
+template <int D, class See>
+void for_each_place(const VecField<double, D>& x, int particles, const See& see) {
+  const auto along = on_host(x.x);
+  auto up = along;
+  if constexpr (D == 2) up = on_host(x.y);
+  for (int i = 0; i < particles; ++i) see(i, Point{along(i), D == 2 ? up(i) : 0.0});
+}
+
 }  // namespace
 
 // Every cell has a particle, dry or wet. Depths below a billionth of the deepest are what rounding leaves of dry land.
@@ -129,7 +125,7 @@ void Solver<D>::place_particles() {
     if (!std::isfinite(depth)) throw SceneError("water: the depth at (" + std::to_string(p.x[0]) + ", " + std::to_string(p.x[1]) +
                                                 ") m is not a finite number; check the expressions of [water] and [bed] there");
     const bool held = !is_inside(scene_.domain, p.x);
-    if (held && is_behind_wall(scene_, p.x)) continue;
+    if (held && beside(scene_, p.x).wall) continue;
     if (!held) covered += p.area, ++inside;
     p.h0 = whole;
     start.push_back({p, depth, bed, held});
@@ -200,14 +196,16 @@ void Solver<D>::build_momentum() {
   using Momentum = Sisph::Momentum;
   const int slots = geometry_.images.slots();
   const Sisph& sisph = scene_.sisph;
-  surface_.emplace(geometry_, SurfaceOptions{scene_.gravity, sisph.theta, sisph.cg.tolerance, sisph.newton.tolerance, sisph.cg.most,
-                                             sisph.newton.most});
+  surface_.emplace(geometry_, order_.rows(), SurfaceOptions{scene_.gravity, sisph.theta, sisph.cg.tolerance, sisph.newton.tolerance,
+                                                            sisph.cg.most, sisph.newton.most});
   active_.emplace(geometry_);
   active_->find(particles_.real("depth"), sisph.picard);
   rim_.emplace(geometry_);
   for (VecField<double, D>* v : {&slope_, &explicit_, &carried_, &before_, &end_}) *v = scratch<D>("sisph.velocity", slots);
   push(water().v, 0, carried_);  // for good where all of a slice is held
-  const bool by_fluxes = sisph.momentum == Momentum::mass_flux || (sisph.momentum == Momentum::automatic && active_->drying());
+  conservative_ = sisph.momentum == Momentum::conservative;
+  const bool by_fluxes = conservative_ || sisph.momentum == Momentum::mass_flux ||
+                         (sisph.momentum == Momentum::automatic && active_->drying());
   if (!by_fluxes && active_->drying())
     throw SceneError("sisph.momentum = \"semi-lagrangian\" needs water everywhere, and " + std::to_string(active_->dry()) +
                      " particles are dry\n  help: use \"mass-flux\"");
@@ -218,6 +216,50 @@ void Solver<D>::build_momentum() {
   } else {
     paths_.emplace(geometry_, order_.rows(), scene_.water.spacing, support_ * sisph.smoothing * scene_.water.spacing);
   }
+}
+
+// g n^2 at each particle, and a place for dt gamma.
+template <int D>
+void Solver<D>::build_friction() {
+  if (!scene_.manning) return;
+  const Manning& manning = *scene_.manning;
+  g_n2_ = Field<double>("sisph.g_n2", static_cast<std::size_t>(particles_.size()) + lanes);
+  const auto host = Kokkos::create_mirror_view(g_n2_);
+  for_each_place(geometry_.x, particles_.size(), [&](int i, const Point& p) {
+    const double n = manning.map ? manning.map(p[0], p[1]) : manning.n;
+    host(i) = scene_.gravity * n * n;
+  });
+  Kokkos::deep_copy(g_n2_, host);
+  drag_ = surface_->make_drag();
+}
+
+template <int D>
+std::vector<RimPlace<D>> Solver<D>::rim_places() const {
+  const auto kind = on_host(particles_.integer("kind"));
+  std::vector<RimPlace<D>> places;
+  for_each_place(geometry_.x, particles_.size(), [&](int i, const Point& p) {
+    const Beside side = kind(i) > 0 ? beside(scene_, p) : Beside{};
+    if (side.opening < 0) return;
+    const double width = side.outside < scene_.water.spacing ? scene_.water.spacing : 0.0;
+    RimPlace<D> place{i, side.opening, side.outside, D == 2 ? width : width / scene_.water.spacing, {}};
+    place.n.x = side.n[0];
+    if constexpr (D == 2) place.n.y = side.n[1];
+    places.push_back(place);
+  });
+  return places;
+}
+
+template <int D>
+void Solver<D>::build_openings() {
+  if (scene_.boundaries.empty()) return;
+  std::vector<LawInTime> laws;
+  for (const OpenBoundary& boundary : scene_.boundaries) laws.push_back(law_of(boundary));
+  open_.emplace(std::move(laws), rim_places(), traced());
+}
+
+template <int D>
+TracedWater<D> Solver<D>::traced() const {
+  return {order_.rows(), geometry_.x, water(), g_n2_, scene_.gravity, scene_.water.spacing};
 }
 
 template <int D>

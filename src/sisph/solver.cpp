@@ -14,63 +14,95 @@ Solver<D>::Solver(const Scene& scene)
   place_particles();
   build_geometry();
   build_momentum();
+  build_friction();
+  build_openings();
   measure_speeds();
 }
 
 template <int D>
-void Solver<D>::step(double, double dt) {
+void Solver<D>::step(double t, double dt) {
   active_->find(water().depth, scene_.sisph.picard);
   if (paths_)
-    carry_along_paths(dt);
+    carry_along_paths(t, dt);
   else
-    carry_by_fluxes(dt);
+    carry_by_fluxes(t, dt);
   measure_speeds();
 }
 
 // Section 3 of the formulas: fully wet.
 template <int D>
-void Solver<D>::carry_along_paths(double dt) {
+void Solver<D>::carry_along_paths(double t, double dt) {
   if (active_->drying())
     throw Diverged("a particle fell dry, and velocities carried along particle paths need water everywhere\n"
                    "  help: sisph.momentum = \"mass-flux\"");
   const double g = scene_.gravity, theta = scene_.sisph.theta;
   const Water<D> now = water();
-  surface_gradient(geometry_, active_->list(), now.depth, now.bed, slope_, false);
+  find_slope(now.depth, false);
   push(now.v, (1 - theta) * g * dt, explicit_);
   paths_->fit(now.v, explicit_);
   surface_->start(now);
+  meet_boundaries(t, dt);
   push(now.v, 0, end_);
   for (int pass = 0; pass < scene_.sisph.picard; ++pass) {
     paths_->trace(now.v, explicit_, end_, dt, carried_);
-    blend();
+    blend(dt);
     solve_surface(dt, false);
-    surface_gradient(geometry_, active_->list(), surface_->depth(), now.bed, slope_, false);
+    find_slope(surface_->depth(), false);
     push(carried_, theta * g * dt, end_);
+    slow_down(end_);
   }
   accept(dt, false);
 }
 
 // Wet and dry alike. The explicit pressure acts on what the fluxes carried in.
 template <int D>
-void Solver<D>::carry_by_fluxes(double dt) {
+void Solver<D>::carry_by_fluxes(double t, double dt) {
   const double g = scene_.gravity, theta = scene_.sisph.theta;
   const bool drying = active_->drying();
   const Water<D> now = water();
-  surface_gradient(geometry_, active_->list(), now.depth, now.bed, slope_, drying);
   velocity_gradient(geometry_, active_->list(), now, velocity_gradient_);
   surface_->start(now);
+  find_push(0, drying);
+  meet_boundaries(t, dt);
   push(now.v, 0, carried_);
   for (int pass = 0; pass < scene_.sisph.picard; ++pass) {
+    if (conservative_ && pass > 0) find_push(0, drying);  // per mass of the pass before
     push(carried_, (1 - theta) * g * dt, carried_);
-    blend();
+    blend(dt);
     solve_surface(dt, drying);
     fluxes_->close_depths(active_->list(), now, *surface_, dt);
     fluxes_->advect(active_->list(), now, *surface_, velocity_gradient_, dt, carried_);
   }
-  push(carried_, (1 - theta) * g * dt, carried_);
-  surface_gradient(geometry_, active_->list(), surface_->depth(), now.bed, slope_, drying);
-  push(carried_, theta * g * dt, end_);
+  if (!conservative_) push(carried_, (1 - theta) * g * dt, carried_);
+  find_push(conservative_ ? theta : 1, drying);
+  push(carried_, (conservative_ ? 1 : theta) * g * dt, end_);
+  slow_down(end_);
   accept(dt, true);
+}
+
+// grad eta of free particles; and of those behind open boundaries; else zero.
+template <int D>
+void Solver<D>::find_slope(const Field<double>& depth, bool drying) {
+  surface_gradient(geometry_, active_->list(), depth, level_of_bed_, slope_, drying);
+  extend_slope(depth);
+}
+
+template <int D>
+void Solver<D>::extend_slope(const Field<double>& depth) {
+  if (!open_) return;
+  TracedWater<D> traced_now = traced();
+  traced_now.water.depth = depth;
+  open_->extend(traced_now, slope_);
+}
+
+// What pushes the water that the fluxes carry: the surface's gradient at n (theta = 0) or n+1 (1), or the conservative pressure of the
+// level theta per mass of n+1.
+template <int D>
+void Solver<D>::find_push(double theta, bool drying) {
+  const Field<double> now = water().depth, next = surface_->depth();
+  if (!conservative_) return find_slope(theta > 0 ? next : now, drying);
+  conservative_slope(geometry_, active_->list(), {now, next, theta}, level_of_bed_, slope_);
+  extend_slope(theta > 0 ? next : now);
 }
 
 // to = from - impulse grad eta; held particles keep what they have, since their slope is zero.
@@ -83,12 +115,36 @@ void Solver<D>::push(const VecField<double, D>& from, double impulse, const VecF
 
 // The velocity of the fluxes before the pressure at n+1: theta of what was carried, the rest of what there was.
 template <int D>
-void Solver<D>::blend() {
+void Solver<D>::blend(double dt) {
   const double theta = scene_.sisph.theta;
   const VecField<double, D> carried = carried_, v = water().v, before = before_;
+  const Field<double> drag = drag_;
+  const bool dragged = drag.extent(0) > 0;
   Kokkos::parallel_for("sisph::blend", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) {
-        put(before, i, theta * at(carried, i) + (1 - theta) * at(v, i));
+        const double share = dragged ? theta / (1 + drag(i)) : theta;
+        put(before, i, share * at(carried, i) + (1 - theta) * at(v, i));
       });
+  if (open_) open_->set_before({v, slope_, theta, theta * scene_.gravity * dt, drag_}, before_);
+}
+
+// Friction, implicit.
+template <int D>
+void Solver<D>::slow_down(const VecField<double, D>& v) {
+  const Field<double> drag = drag_;
+  const VecField<double, D> slowed = v;
+  if (drag.extent(0) == 0) return;
+  Kokkos::parallel_for("sisph::slow_down", Range(0, particles_.size()),
+                       KOKKOS_LAMBDA(int i) { put(slowed, i, (1 / (1 + drag(i))) * at(slowed, i)); });
+}
+
+// The friction of the water at t, and the rim's state at t + dt.
+template <int D>
+void Solver<D>::meet_boundaries(double t, double dt) {
+  const Water<D> now = water();
+  if (drag_.extent(0) > 0) find_drag<D>(particles_.size(), now, g_n2_, dt, drag_);
+  if (!open_) return;
+  open_->find(traced(), t, dt);
+  open_->impose(now.bed, surface_->level(), surface_->depth());
 }
 
 template <int D>
@@ -104,6 +160,7 @@ void Solver<D>::solve_surface(double dt, bool drying) {
 // The state at n+1: velocities stop where no water is left.
 template <int D>
 void Solver<D>::accept(double dt, bool closed) {
+  if (open_) open_->set_end(end_);
   const RimFlow rim = rim_->flow(*surface_, dt, closed);
   passed_.inflow += rim.in;
   passed_.outflow += rim.out;

@@ -9,7 +9,10 @@
 #include "kernels/sampling.hpp"
 #include "kernels/sisph/active.hpp"
 #include "kernels/sisph/closure.hpp"
+#include "kernels/sisph/conservative.hpp"
+#include "kernels/sisph/friction.hpp"
 #include "kernels/sisph/mass_flux.hpp"
+#include "kernels/sisph/open.hpp"
 #include "kernels/sisph/rim.hpp"
 #include "kernels/sisph/semi_lagrangian.hpp"
 #include "src/method.hpp"
@@ -45,10 +48,19 @@ class Solver : public Method {
   void fill_fields(const std::vector<Start>& start);
   void build_geometry();
   void build_momentum();
-  void carry_along_paths(double dt);
-  void carry_by_fluxes(double dt);
+  void build_friction();
+  void build_openings();
+  std::vector<RimPlace<D>> rim_places() const;
+  TracedWater<D> traced() const;
+  void meet_boundaries(double t, double dt);
+  void carry_along_paths(double t, double dt);
+  void carry_by_fluxes(double t, double dt);
+  void find_slope(const Field<double>& depth, bool drying);
+  void find_push(double theta, bool drying);
+  void extend_slope(const Field<double>& depth);
+  void slow_down(const VecField<double, D>& v);
   void push(const VecField<double, D>& from, double impulse, const VecField<double, D>& to);
-  void blend();
+  void blend(double dt);
   void solve_surface(double dt, bool drying);
   void accept(double dt, bool closed);
   void measure_speeds();
@@ -59,6 +71,7 @@ class Solver : public Method {
   AnyKernel<D> kernel_;
   double support_;   // of the kernel, x l
   double cell_ = 0;  // m^D, that a particle covers on average
+  bool conservative_ = false;  // the pressure of the momentum
   int held_ = 0;     // particles beside the domain
   FieldSet particles_;
   RowOrder order_;
@@ -71,6 +84,8 @@ class Solver : public Method {
   std::optional<SemiLagrangian<D>> paths_;
   std::optional<MassFlux<D>> fluxes_;
   std::optional<Rim<D>> rim_;
+  std::optional<OpenRim<D>> open_;
+  Field<double> g_n2_, drag_;  // friction: g n^2 of the ground, dt gamma; empty without
   VecField<double, D> slope_, explicit_, carried_, before_, end_;  // grad eta; velocities, m/s
   VelocityGradient<D> velocity_gradient_;
   StepReport report_;

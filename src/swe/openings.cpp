@@ -3,13 +3,13 @@
 #include <cmath>
 
 #include "kernels/swe/lattice.hpp"
+#include "src/scene/open_law.hpp"
 #include "src/swe/solver.hpp"
 
 namespace freshet::swe {
 namespace {
 
 using Boundary = freshet::OpenBoundary;
-using Kind = Boundary::Kind;
 using Line = std::vector<Point>;
 
 constexpr double wall_cells = 8;      // a wall beside a buffer is so long
@@ -71,24 +71,6 @@ OpenLine<2> open_line(const Scene& scene, const std::vector<Piece>& pieces, cons
   const double length = std::hypot(piece.b[0] - piece.a[0], piece.b[1] - piece.a[1]);
   return {{piece.a[0], piece.a[1]}, {-n[0], -n[1]}, {t[0], t[1]}, length,
           spread(scene, pieces, piece, false), spread(scene, pieces, piece, true)};
-}
-
-std::function<OpenLaw(double)> law_of(const Boundary& b) {
-  switch (b.kind) {
-    case Kind::elevation: return [level = b.level](double t) { return ImposedLevel{level.at(t)}; };
-    case Kind::wave: return [level = b.level](double t) { return IncomingWave{level.at(t)}; };
-    case Kind::velocity: return [velocity = b.velocity](double t) { return ImposedVelocity{velocity.at(t)}; };
-    case Kind::discharge:
-      return [total = b.discharge, by_width = b.by_width](double t) { return ImposedDischarge{total.at(t), by_width}; };
-    case Kind::state:
-      return [b](double t) {
-        const bool by_depth = !b.depth.t.empty();
-        return ImposedState{by_depth ? b.depth.at(t) : b.level.at(t), by_depth, b.velocity.at(t)};
-      };
-    case Kind::transmissive: break;
-  }
-  if (b.level.t.empty()) return [](double) { return Transmissive{}; };
-  return [level = b.level](double t) { return ImposedState{level.at(t), false}; };
 }
 
 // When what is imposed changes its slope.

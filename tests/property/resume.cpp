@@ -161,6 +161,8 @@ TEST_CASE("semi-implicit runs resume to the bit") {
   check_pieces(drying, make_method, 4);
   const Scene walled = read_scene("cases/sisph_seiche.toml", {"time.end=0.2"});
   check_pieces(walled, make_method, 7);
+  const Scene open = read_scene("cases/sisph_channel.toml", {"time.end=20", "boundary.1.type=transmissive"});
+  check_pieces(open, make_method, 7);
 }
 
 TEST_CASE("a dam break that splits and merges resumes to the bit") {

@@ -129,3 +129,44 @@ TEST_CASE("sisph: a step launches its own passes and allocates nothing") {
   CHECK(labels.count("sisph::advect") == (dry ? 1 : 0));
   CHECK(labels.count("sisph::trace") == (dry ? 0 : 1));
 }
+
+TEST_CASE("sisph: large steps have the particle mesh, and resuming goes on with it") {
+  Scene scene = hump(0.2);
+  scene.sisph.courant = 50;
+  Flow flow(scene), resumed(scene);
+  flow.many_steps(3);
+  REQUIRE(flow.method->scalars().at("mesh")[0] == 1);
+  for (const auto& f : std::as_const(*flow.method).fields().reals()) Kokkos::deep_copy(resumed.real(f.name.c_str()), f.data);
+  resumed.method->restore(flow.method->scalars());
+  flow.step(0.5);
+  resumed.step(0.5);
+  CHECK(resumed.by_id("depth") == flow.by_id("depth"));
+}
+
+TEST_CASE("sisph: friction holds a dam break over dry land back and keeps its water") {
+  const auto front = [](double n) {
+    Scene scene = sisph_scene(1, {0, 0}, {6, 0}, 0.05);
+    test::close_box(scene);
+    scene.manning = Manning(n);
+    scene.water.depth = [](double x, double) { return x < 2 ? 0.4 : 0.0; };
+    Flow flow(scene);
+    const double mass = flow.method->totals().mass;
+    flow.run(0.6);
+    CHECK(std::abs(flow.method->totals().mass / mass - 1) < 1e-12);
+    double furthest = 0;
+    for (int i = 0; i < flow.size(); ++i)
+      if (flow.real("depth")(i) > 0.01) furthest = std::max(furthest, flow.real("x")(i));
+    return furthest - 2;
+  };
+  const double smooth = front(0), rough = front(0.1);
+  CAPTURE(smooth, rough);
+  CHECK(rough > 0.2);
+  CHECK(rough < 0.9 * smooth);
+}
+
+TEST_CASE("sisph: an open boundary inside the domain is refused") {
+  Scene scene = hump(0);
+  scene.boundaries = {test::open_end(scene, true, OpenBoundary::Kind::transmissive)};
+  for (freshet::Point& p : scene.boundaries[0].line) p[0] += 0.3;
+  CHECK_THROWS_WITH(Flow(scene), Catch::Contains("on the sides of the domain alone"));
+}

@@ -2,6 +2,7 @@
 // Bounds: what a prototype of the scheme reached, and a fifth more.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/support/scenes.hpp"
@@ -57,6 +58,8 @@ struct Seiche {
   double frequency_error;  // relative
   double l2;               // of the surface after two periods, over the amplitude
   double mass_error;
+  double highest;     // of the mode's amplitudes, over the first
+  double iterations;  // a linear solve
 };
 
 // The frequency whose cosine fits the amplitudes best.
@@ -78,11 +81,11 @@ double fitted_frequency(const std::vector<double>& t, const std::vector<double>&
   return 0.5 * (low + high);
 }
 
-Seiche run(const Basin& basin, int n, double disorder) {
+Seiche run(const Basin& basin, int n, double disorder, double courant = 1) {
   Flow flow(basin_scene(basin, n, disorder));
   const double omega = basin.k * std::sqrt(gravity), period = 2 * pi / omega;  // shallow water
-  const double courant_one = 1.0 / n / std::sqrt(gravity);
-  const int steps = static_cast<int>(std::ceil(2 * period / courant_one));
+  const double dt = courant / n / std::sqrt(gravity);
+  const int steps = static_cast<int>(std::ceil(2 * period / dt));
   const double mass = flow.method->totals().mass;
   std::vector<double> time, mode;
   const auto x = flow.real("x"), y = flow.real("y"), depth = flow.real("depth");
@@ -98,7 +101,8 @@ Seiche run(const Basin& basin, int n, double disorder) {
   double square = 0;
   for (int i = 0; i < flow.size(); ++i) square += std::pow(depth(i) - 1 - basin.amplitude * basin.mode(x(i), y(i)), 2);
   return {fitted_frequency(time, mode, omega) / omega - 1, std::sqrt(square / flow.size()) / basin.amplitude,
-          std::abs(flow.method->totals().mass / mass - 1)};
+          std::abs(flow.method->totals().mass / mass - 1), *std::max_element(mode.begin(), mode.end()),
+          static_cast<double>(flow.method->report().iterations) / static_cast<double>(flow.method->report().solves)};
 }
 
 struct Bound {
@@ -143,4 +147,20 @@ TEST_CASE("sisph seiche: still water between walls stays exactly still") {
   Flow flow(scene);
   for (int n = 0; n < 100; ++n) flow.step(0.02);
   CHECK(flow.largest_speed() == 0);
+}
+
+// Frequency: that of the trapezoidal rule in time, 2 / dt atan(omega dt / 2), is the reference for each step.
+TEST_CASE("sisph seiche: large steps", "[long]") {
+  const int n = 160;
+  for (const double courant : {5.0, 10.0, 20.0, 50.0}) {
+    const Basin basin = box();
+    const Seiche s = run(basin, n, 0.2, courant);
+    const double omega = basin.k * std::sqrt(gravity), period = 2 * pi / omega, wanted = courant / n / std::sqrt(gravity);
+    const double dt = 2 * period / std::ceil(2 * period / wanted), rule = 2 / dt * std::atan(0.5 * omega * dt) / omega - 1;
+    CAPTURE(courant, s.frequency_error, rule, s.l2, s.highest, s.mass_error, s.iterations);
+    CHECK(std::abs(s.frequency_error - rule) <= 2e-3);
+    CHECK(s.highest <= 1.01);  // stable
+    CHECK(s.mass_error <= 1e-12);
+    CHECK(s.iterations <= 15);
+  }
 }

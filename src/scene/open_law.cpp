@@ -1,0 +1,24 @@
+#include "src/scene/open_law.hpp"
+
+namespace freshet {
+
+std::function<OpenLaw(double)> law_of(const OpenBoundary& b) {
+  using Kind = OpenBoundary::Kind;
+  switch (b.kind) {
+    case Kind::elevation: return [level = b.level](double t) { return ImposedLevel{level.at(t)}; };
+    case Kind::wave: return [level = b.level](double t) { return IncomingWave{level.at(t)}; };
+    case Kind::velocity: return [velocity = b.velocity](double t) { return ImposedVelocity{velocity.at(t)}; };
+    case Kind::discharge:
+      return [total = b.discharge, by_width = b.by_width](double t) { return ImposedDischarge{total.at(t), by_width}; };
+    case Kind::state:
+      return [b](double t) {
+        const bool by_depth = !b.depth.t.empty();
+        return ImposedState{by_depth ? b.depth.at(t) : b.level.at(t), by_depth, b.velocity.at(t)};
+      };
+    case Kind::transmissive: break;
+  }
+  if (b.level.t.empty()) return [](double) { return Transmissive{}; };
+  return [level = b.level](double t) { return ImposedState{level.at(t), false}; };
+}
+
+}  // namespace freshet

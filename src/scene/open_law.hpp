@@ -1,0 +1,13 @@
+// What an open boundary of a scene imposes, as the laws of kernels/open_states.hpp.
+#pragma once
+#include <functional>
+
+#include "kernels/open_states.hpp"
+#include "src/scene/scene.hpp"
+
+namespace freshet {
+
+// The law at a time [s].
+std::function<OpenLaw(double)> law_of(const OpenBoundary& boundary);
+
+}  // namespace freshet
