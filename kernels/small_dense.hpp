@@ -50,11 +50,14 @@ struct Symmetric {
 };
 
 // Pivots below `least` times their diagonal entry count as zero: the unknown is left out (its value becomes 0). Those of the unknowns from
-// `soft_from` on are raised to `soft` times their diagonal entry: what the system hardly determines is drawn towards 0.
+// `soft_from` on grow by `stiffness` times what they fall short of `soft` times their diagonal entry: what the system hardly determines is
+// drawn towards 0.
+template <class V>
 struct Pivots {
   double least = 1e-10;
   int soft_from = 1 << 30;
-  double soft = 0;
+  double stiffness = 0;
+  V soft = V(0.0);
 };
 
 // L D L^T of a symmetric matrix with no negative eigenvalues; singular ones have a bounded answer. `complete` tells how many unknowns the
@@ -62,7 +65,7 @@ struct Pivots {
 template <class V, int N>
 class Factored {
  public:
-  explicit KOKKOS_FORCEINLINE_FUNCTION Factored(const Symmetric<V, N>& g, const Pivots& pivots = {}) : l_(g) {
+  explicit KOKKOS_FORCEINLINE_FUNCTION Factored(const Symmetric<V, N>& g, const Pivots<V>& pivots = {}) : l_(g) {
     V kept{0.0};
     unroll<N>([&](auto i) {
       unroll<i>([&](auto j) {  // l(i, j) holds L D until its row is done
@@ -76,7 +79,7 @@ class Factored {
       });
       const V least = pivots.least * g(i, i);
       kept += select(least < pivot, V(1.0), V(0.0));
-      if (i >= pivots.soft_from) pivot = larger(pivot, pivots.soft * g(i, i));
+      if (i >= pivots.soft_from) pivot += pivots.stiffness * larger(V(0.0), pivots.soft * g(i, i) - pivot);
       const auto sound = least < pivot;
       inverse_[i] = select(sound, V(1.0) / select(sound, pivot, V(1.0)), V(0.0));
     });

@@ -2,8 +2,10 @@
 // (1-D: 3 terms, 3-D: 10), weight exp(-7 R^2) for R = r / h < 1 (printed: 6.25). With G = sum w m m^T a linear functional of the fitted polynomial is
 // sum_j w_j (m_j . beta) f_j, G beta = the functional's values on the basis: beta are its factors. Values V: double or pack.
 #pragma once
+#include <type_traits>
+
 #include "cellgrid/vec.hpp"
-#include "kernels/small_dense.hpp"
+#include "kernels/fpm/soft.hpp"
 
 namespace freshet::fpm {
 
@@ -47,10 +49,6 @@ KOKKOS_FORCEINLINE_FUNCTION V weight(const V& s) {
   return select(s < V(1.0), e, V(0.0));
 }
 
-// In layers of two rows of points second derivatives across are as good as free: the gradient in one row may take any share of them, and a
-// projection with such gradients multiplies errors by 1e3 to 1e5 in a step. Clouds off jets keep pivots above 0.03 (jitter 0.3 dx, corners).
-constexpr double least_pivot = 1e-10, soft_pivot = 0.01;
-
 // sum w m m^T
 template <class V, int D>
 struct Moments {
@@ -69,6 +67,10 @@ struct Moments {
   }
 };
 
+// Of fits with (1) or without (0) a constant.
+template <class V, int D, int Constants>
+using FitSolver = std::conditional_t<D == 2, SoftFactored<V, Constants, Constants + terms<D> - 1>, Factored<V, Constants + terms<D> - 1>>;
+
 // m . beta for factors without the constant.
 template <class V, int D>
 KOKKOS_FORCEINLINE_FUNCTION V of_slopes(const Terms<V, D>& m, const Slopes<V, D>& beta) {
@@ -84,7 +86,7 @@ struct Derivatives {
   V complete;  // share of the unknowns that the neighbours determine; below 1 the others count as zero
 
   KOKKOS_FORCEINLINE_FUNCTION Derivatives(const Moments<V, D>& moments, const V& per_h) {
-    const Factored<V, terms<D> - 1> factored(moments.slopes(), {least_pivot, D, soft_pivot});
+    const FitSolver<V, D, 0> factored(moments.slopes());
     complete = factored.complete();
     unroll<D>([&](auto axis) {
       Slopes<V, D> e;
@@ -98,11 +100,19 @@ struct Derivatives {
 };
 
 // Factors of the fitted value at the origin of the basis. Few neighbours: the terms that they do not determine count as zero.
-template <class V, int D>
-KOKKOS_FORCEINLINE_FUNCTION Terms<V, D> value_factors(const Moments<V, D>& moments, const Pivots& pivots = {least_pivot}) {
+template <class Solver, class V, int D>
+KOKKOS_FORCEINLINE_FUNCTION Terms<V, D> value_factors_by(const Moments<V, D>& moments) {
   Terms<V, D> e;
   unroll<terms<D>>([&](auto k) { e[k] = V(k == 0 ? 1.0 : 0.0); });
-  return Factored<V, terms<D>>(moments.g, pivots).solve(e);
+  return Solver(moments.g).solve(e);
+}
+template <class V, int D>
+KOKKOS_FORCEINLINE_FUNCTION Terms<V, D> value_factors(const Moments<V, D>& moments) {
+  return value_factors_by<Factored<V, terms<D>>>(moments);
+}
+template <class V, int D>
+KOKKOS_FORCEINLINE_FUNCTION Terms<V, D> soft_value_factors(const Moments<V, D>& moments) {
+  return value_factors_by<FitSolver<V, D, 1>>(moments);
 }
 
 }  // namespace freshet::fpm

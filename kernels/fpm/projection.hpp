@@ -69,7 +69,7 @@ class Projection {
   const Stencils<2>& stencils() const { return stencils_; }
 
  public:  // device lambdas may not live in private members
-  void find_rows(const Flow& flow);
+  void find_rows(const Neighbourhood<2>& around, const Flow& flow);
   void guess_pressure(const Flow& flow);
   void predict(const Flow& flow, const Backward& time);
   linear::BiCgStabReport diffuse(const Flow& flow, const Backward& time);

@@ -30,7 +30,7 @@ StencilReport Stencils<D>::find(const Neighbourhood<D>& around) {
         unroll<D>([&](auto axis) { view.store(c, axis * view.slopes, d.gradient[axis]); });
         view.store(c, view.laplacian_first, d.laplacian);
         moments.g(0, 0) += 1.0;  // the point itself
-        view.store(c, view.value_first, value_factors(moments, {least_pivot, 1 + D, soft_pivot}));
+        view.store(c, view.value_first, soft_value_factors(moments));
         for (int l = 0; l < me.count; ++l) poor += lane_of(d.complete, l) < 1 - 1e-6;
       }, report.poor);
   return report;

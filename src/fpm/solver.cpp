@@ -10,6 +10,8 @@
 namespace freshet::fpm {
 namespace {
 
+constexpr double fastest_growth = 2;  // of the time step: backward differences of second order stand less than 1 + sqrt 2
+
 std::string unsolved(const linear::BiCgStabReport& solve, double tolerance) {
   char text[300];
   std::snprintf(text, sizeof text,
@@ -57,6 +59,7 @@ double Solver::stable_dt() const {
   if (speed > 0) dt = std::min(dt, scene_.cfl * h / speed);
   if (force > 0) dt = std::min(dt, 0.04 * std::sqrt(h / force));
   if (scene_.fpm->viscosity > 0 && !scene_.fpm->implicit_viscosity) dt = std::min(dt, 0.125 * h * h / scene_.fpm->viscosity);
+  if (last_dt_ > 0) dt = std::min(dt, fastest_growth * last_dt_);
   return std::isfinite(speed) ? dt : speed;
 }
 

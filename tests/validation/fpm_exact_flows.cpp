@@ -37,8 +37,7 @@ TEST_CASE("Taylor-Green vortices of 20 and 40 points a side decay as they should
   coarse.run_to(2);
   fine.run_to(2);
   CAPTURE(vortex_error(coarse), vortex_error(fine), coarse.most_iterations, fine.most_iterations);
-  // The prototype's 8.4e-3 and 8.6e-4 with a margin.
-  CHECK(vortex_error(coarse) <= 9.5e-3);
+  CHECK(vortex_error(coarse) <= 9.5e-3);  // the prototype's 8.4e-3 and 8.6e-4 with a margin
   CHECK(vortex_error(fine) <= 1.0e-3);
 }
 
