@@ -57,7 +57,7 @@ struct Fit {
     if (!found.wet) return found;
     Terms first{};
     first[0] = 1;
-    first = beside_dry ? Terms{{1 / m(0, 0)}} : Factored<double, terms>(m, Pivots{least}).solve(first);
+    first = beside_dry ? Terms{{1 / m(0, 0)}} : Factored<double, terms>(m, Pivots<double>{least}).solve(first);
     for_each(place, [&](int j, double weight, const Vec<double, D>& d) {
       if (!(w.water.depth(j) > 0)) return;
       const double share = weight * dot(first, monomials(d));
