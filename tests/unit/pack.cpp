@@ -145,7 +145,7 @@ TEST_CASE("pack: whole numbers, look-ups, single lanes") {
   Lane b = a;
   set_lane(b, lanes - 1, -5.0);
   CHECK(lane_of(b, lanes - 1) == -5);
-  CHECK(lane_of(b, 0) == lane_of(a, 0));
+  if (lanes > 1) CHECK(lane_of(b, 0) == lane_of(a, 0));
 }
 
 TEST_CASE("pack: reciprocal cube root over sixty decades") {
