@@ -41,8 +41,8 @@ void smooth(const Level& level, const Vector& b, const Vector& x, const Vector& 
 // Sweeps from zero; the result is in x, y is scratch.
 template <class Level>
 void smooth_from_zero(const Level& level, const Vector& b, Vector& x, Vector& y, const MultigridOptions& options) {
-  smooth_zero(level, b, x, options.damping);
-  for (int s = 1; s < options.sweeps; ++s, std::swap(x, y)) smooth(level, b, x, y, options.damping);
+  smooth_zero(level, b, x, options.damping_of(0));
+  for (int s = 1; s < options.sweeps; ++s, std::swap(x, y)) smooth(level, b, x, y, options.damping_of(s));
 }
 
 // to := b - A x
@@ -80,7 +80,7 @@ void BinMultigrid::operator()(const Vector& r, const Vector& z) {
       });
   cycle(0);
   add_coarse(matrix_.rows, parent_, options_.over_correction, first.x, x);
-  for (int s = 0; s < options_.sweeps; ++s, std::swap(x, y)) smooth(points, r, x, y, options_.damping);
+  for (int s = 0; s < options_.sweeps; ++s, std::swap(x, y)) smooth(points, r, x, y, options_.damping_of(s + 1));
 }
 
 // level.x := one cycle on level.b.
@@ -108,7 +108,7 @@ void BinMultigrid::cycle(int depth) {
       });
   cycle(depth + 1);
   add_coarse(level.size, level.parent, options_.over_correction, levels_[static_cast<std::size_t>(depth + 1)].x, level.x);
-  for (int s = 0; s < options_.sweeps; ++s, std::swap(level.x, level.y)) smooth(level, b, level.x, level.y, options_.damping);
+  for (int s = 0; s < options_.sweeps; ++s, std::swap(level.x, level.y)) smooth(level, b, level.x, level.y, options_.damping_of(s + 1));
 }
 
 }  // namespace freshet::linear

@@ -1,8 +1,9 @@
 // A multigrid preconditioner for matrices on scattered points, without graph work: unknowns of a square bin are one unknown of the next
 // level, bins double in size from level to level, entries are summed (Galerkin with piecewise constants), damped Jacobi smooths, the
-// coarse correction is taken 1.6 times, and the last level is inverted. Rows of Dirichlet points (`free` 0) are left out: their
+// coarse correction is taken 1.7 times, and the last level is inverted. Rows of Dirichlet points (`free` 0) are left out: their
 // residual must be zero. Every pass is data parallel and in a fixed order. The points are in the order of cellgrid's rows.
 #pragma once
+#include <array>
 #include <vector>
 
 #include "kernels/linear/bin_levels.hpp"
@@ -10,10 +11,12 @@
 namespace freshet::linear {
 
 struct MultigridOptions {
-  double damping = 0.7;          // of Jacobi
+  std::array<double, 2> damping{0.7, 1.5};  // of Jacobi's sweeps in turn: together they flatten what bins of two spacings do not see
   int sweeps = 2;                // before and after the coarse correction
-  double over_correction = 1.6;
+  double over_correction = 1.7;
   int coarsest = 64;             // unknowns at most on the level that is inverted
+
+  double damping_of(int sweep) const { return damping[static_cast<std::size_t>(sweep % 2)]; }
 };
 
 class BinMultigrid {

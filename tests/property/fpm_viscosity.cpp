@@ -57,7 +57,8 @@ TEST_CASE("A shear layer decays implicitly at sixteen times the explicit step, w
   CHECK(implicit > 0);
   double explicitly = 0;
   try {
-    explicitly = after(shear(0.025, "sin(2*pi*y)", "", "explicit"), 40, dt, whole_wave);
+    // Short waves grow tenfold a step and drag the long one along; a run would stop here, its next stable step being next to nothing.
+    explicitly = after(shear(0.025, "sin(2*pi*y)", "", "explicit"), 10, dt, whole_wave);
   } catch (const Diverged&) {
     explicitly = 1e300;
   }
