@@ -180,22 +180,6 @@ using Lane = pack<double, lanes>;
 KOKKOS_FORCEINLINE_FUNCTION Lane root(Lane a) { return sqrt(a); }
 #endif
 
-// Lanes kept in single precision.
-#if defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP) || defined(FRESHET_SCALAR)
-KOKKOS_FORCEINLINE_FUNCTION Lane load_single(const float* from) { return *from; }
-KOKKOS_FORCEINLINE_FUNCTION void store_single(float* to, Lane value) { *to = static_cast<float>(value); }
-#else
-KOKKOS_FORCEINLINE_FUNCTION Lane load_single(const float* from) {
-  vector_of<float, lanes>::type single;
-  __builtin_memcpy(&single, from, sizeof single);
-  return __builtin_convertvector(single, Lane::Vector);
-}
-KOKKOS_FORCEINLINE_FUNCTION void store_single(float* to, Lane value) {
-  const auto single = __builtin_convertvector(value.v, vector_of<float, lanes>::type);
-  __builtin_memcpy(to, &single, sizeof single);
-}
-#endif
-
 // Whole numbers per lane, for table look-ups.
 #if defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP) || defined(FRESHET_SCALAR)
 using LaneIndex = int;

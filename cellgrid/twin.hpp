@@ -38,20 +38,20 @@ class TwinRecord {
 #else
 inline constexpr int neighbours_at_once = 2;
 using Twin = pack<float, 2 * lanes>;
-using HalfTwin = vector_of<float, lanes>::type;
+using HalfTwin = pack<float, lanes>;
 
-inline HalfTwin first_half(Twin a) { return __builtin_shufflevector(a.v, a.v, 0, 1, 2, 3, 4, 5, 6, 7); }
-inline HalfTwin second_half(Twin a) { return __builtin_shufflevector(a.v, a.v, 8, 9, 10, 11, 12, 13, 14, 15); }
-inline Lane widen(HalfTwin a) { return __builtin_convertvector(a, Lane::Vector); }
+inline HalfTwin first_half(Twin a) { return HalfTwin::Vector(__builtin_shufflevector(a.v, a.v, 0, 1, 2, 3, 4, 5, 6, 7)); }
+inline HalfTwin second_half(Twin a) { return HalfTwin::Vector(__builtin_shufflevector(a.v, a.v, 8, 9, 10, 11, 12, 13, 14, 15)); }
+inline Lane widen(HalfTwin a) { return __builtin_convertvector(a.v, Lane::Vector); }
 
 #ifdef FRESHET_AVX512
 struct Mask16 {
   __mmask16 bits;
 };
 inline constexpr __mmask16 all_twins = 0xffff;
-inline HalfTwin narrow(Lane a) { return (HalfTwin)_mm512_maskz_cvtpd_ps(all_lanes, (__m512d)a.v); }
+inline HalfTwin narrow(Lane a) { return HalfTwin::Vector(_mm512_maskz_cvtpd_ps(all_lanes, (__m512d)a.v)); }
 inline Twin join(HalfTwin a, HalfTwin b) {
-  return Twin::Vector(_mm512_maskz_insertf32x8(all_twins, _mm512_castps256_ps512((__m256)a), (__m256)b, 1));
+  return Twin::Vector(_mm512_maskz_insertf32x8(all_twins, _mm512_castps256_ps512((__m256)a.v), (__m256)b.v, 1));
 }
 inline Mask16 operator<(Twin a, Twin b) { return {_mm512_cmp_ps_mask((__m512)a.v, (__m512)b.v, _CMP_LT_OQ)}; }
 inline Twin select(Mask16 m, Twin a, Twin b) { return Twin::Vector(_mm512_mask_blend_ps(m.bits, (__m512)b.v, (__m512)a.v)); }
@@ -78,9 +78,9 @@ struct Mask16 {
   typedef int Bits __attribute__((vector_size(4 * 2 * lanes)));
   Bits bits;
 };
-inline HalfTwin narrow(Lane a) { return __builtin_convertvector(a.v, HalfTwin); }
+inline HalfTwin narrow(Lane a) { return __builtin_convertvector(a.v, HalfTwin::Vector); }
 inline Twin join(HalfTwin a, HalfTwin b) {
-  return Twin::Vector(__builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15));
+  return Twin::Vector(__builtin_shufflevector(a.v, b.v, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15));
 }
 inline Mask16 operator<(Twin a, Twin b) { return {a.v < b.v}; }
 inline Twin select(Mask16 m, Twin a, Twin b) { return Twin::Vector(m.bits ? a.v : b.v); }
@@ -103,7 +103,7 @@ inline Lane folded_largest(Twin a) { return larger(widen(first_half(a)), widen(s
 // i - a and i - b
 inline Twin apart(Lane i, double a, double b) { return join(narrow(i - a), narrow(i - b)); }
 // 1 where a neighbour counts: the second half only where there are two.
-inline Twin kept(bool both) { return join(HalfTwin{} + 1.0f, HalfTwin{} + (both ? 1.0f : 0.0f)); }
+inline Twin kept(bool both) { return join(HalfTwin(1.0f), HalfTwin(both ? 1.0f : 0.0f)); }
 
 // The records of two neighbours, number by number.
 template <int N>
@@ -113,21 +113,21 @@ class TwinRecord {
   template <int k>
   Twin get() const {
     constexpr int j = 2 * lanes + k;
-    return Twin::Vector(__builtin_shufflevector(a_, b_, k, k, k, k, k, k, k, k, j, j, j, j, j, j, j, j));
+    return Twin::Vector(__builtin_shufflevector(a_.v, b_.v, k, k, k, k, k, k, k, k, j, j, j, j, j, j, j, j));
   }
 
  private:
   // Never by way of memory: a wide load of what narrow stores have just left there waits for them.
-  static Twin::Vector load(const SingleRecord<N>& r) {
+  static Twin load(const SingleRecord<N>& r) {
     static_assert(N == 4 || N == 2 * lanes, "a quarter of a Twin, or a whole one");
 #ifdef FRESHET_AVX512
     if constexpr (N == 4) return Twin::Vector(_mm512_castps128_ps512(_mm_load_ps(r.value)));
 #endif
-    Twin::Vector v{};
+    Twin v(0.0f);
     __builtin_memcpy(&v, r.value, sizeof r);
     return v;
   }
-  Twin::Vector a_, b_;
+  Twin a_, b_;
 };
 #endif
 

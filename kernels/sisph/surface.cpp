@@ -64,7 +64,7 @@ typename FreeSurface<D>::Norms FreeSurface<D>::find_coefficients(const SliceList
 template <int D>
 double FreeSurface<D>::find_residual(const SliceList& active, const Water<D>& water) {
   return std::sqrt(sums_.sum<1>("sisph::residual", active.count,
-                                Residual<D>{g_, active, a_, level_, water.bed, right_, row_sum_, depth_, residual_})[0]);
+                                Residual<D>{g_, active, a_, level_, water.bed, right_, depth_, residual_})[0]);
 }
 
 // P + sum_j a_ij and its inverse; rows without any are left out.

@@ -129,7 +129,7 @@ template <int D>
 struct Residual {
   Geometry<D> g;
   SliceList active;
-  Field<double> a, level, bed, right, row_sum, depth, residual;
+  Field<double> a, level, bed, right, depth, residual;
 
   KOKKOS_FUNCTION Kokkos::Array<double, 1> operator()(int k) const {
     const int s = active(k);
