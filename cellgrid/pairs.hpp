@@ -160,29 +160,15 @@ class Pairs {
   VecField<double, D> vector_coefficient(const std::string& label) const;
 
  private:
-  template <class Visit>
-  void measure(const Visit& visit);
-  template <class Visit>
-  void fill(const Visit& visit);
-
   PairView view_;
   int entries_ = 0;
 };
 
+// The first entry of each slice; the longest row of a slice is its number of entries. Free, as the next: nvcc takes no launch in a
+// private member.
 template <class Visit>
-void Pairs::list(int particles, const Visit& visit, bool images) {
-  view_.particles = particles;
-  measure(visit);
-  view_.j = Field<int>(Kokkos::ViewAllocateWithoutInitializing("cellgrid.pair_j"), PairView::at(entries_));
-  view_.slot = images ? Field<int>(Kokkos::ViewAllocateWithoutInitializing("cellgrid.pair_slot"), PairView::at(entries_)) : view_.j;
-  fill(visit);
-}
-
-// The longest row of a slice is its number of entries.
-template <class Visit>
-void Pairs::measure(const Visit& visit) {
-  const int slices = view_.slices();
-  const PairView view = view_;
+Field<int> first_entries(const PairView& view, const Visit& visit) {
+  const int slices = view.slices();
   const Field<int> start("cellgrid.pair_start", static_cast<size_t>(slices + 1));
   Kokkos::parallel_for("cellgrid::count_pairs", Range(0, slices), KOKKOS_LAMBDA(int s) {
         const Lanes me = view(s);
@@ -199,13 +185,11 @@ void Pairs::measure(const Visit& visit) {
         if (last) start(s) = sum;
         sum += here;
       });
-  Kokkos::deep_copy(entries_, Kokkos::subview(start, slices));
-  view_.start = start;
+  return start;
 }
 
 template <class Visit>
-void Pairs::fill(const Visit& visit) {
-  const PairView view = view_;
+void fill_pairs(const PairView& view, const Visit& visit) {
   Kokkos::parallel_for("cellgrid::fill_pairs", Range(0, view.slices()), KOKKOS_LAMBDA(int s) {
         const Lanes me = view(s);
         for (int l = 0; l < lanes; ++l) {
@@ -219,6 +203,16 @@ void Pairs::fill(const Visit& visit) {
           while (e < view.start(s + 1)) put(i, i);
         }
       });
+}
+
+template <class Visit>
+void Pairs::list(int particles, const Visit& visit, bool images) {
+  view_.particles = particles;
+  view_.start = first_entries(view_, visit);
+  Kokkos::deep_copy(entries_, Kokkos::subview(view_.start, view_.slices()));
+  view_.j = Field<int>(Kokkos::ViewAllocateWithoutInitializing("cellgrid.pair_j"), PairView::at(entries_));
+  view_.slot = images ? Field<int>(Kokkos::ViewAllocateWithoutInitializing("cellgrid.pair_slot"), PairView::at(entries_)) : view_.j;
+  fill_pairs(view_, visit);
 }
 
 }  // namespace freshet
