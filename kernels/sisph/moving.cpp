@@ -80,6 +80,7 @@ void MovingWater<D>::list_pairs(const Swarm<D>& now, double skin) {
   const PairRequest<D> request{now.rows, now.x, now.h, options_.support + skin / options_.h};
   g_.images = list_wall_pairs<D>(n, request, walls_, pairs_);
   g_.pairs = pairs_.view();
+  rows_ = now.rows;
   listed_ = freshet::sisph::place_images<D>(n, request, walls_, g_.images);
   make_room();
 }
@@ -142,22 +143,46 @@ void MovingWater<D>::predict(const Swarm<D>& now, double dt) {
   g_.images.fill(mixed_);
 }
 
+// The mesh of the system at hand, over the places at n. It is made when first needed, once.
+template <int D>
+void MovingWater<D>::lay_mesh(double stiffness) {
+  if (!mesh_) mesh_.emplace();
+  if (mesh_mass_.extent(0) == 0) mesh_mass_ = scalar(g_.pairs.particles), mesh_depth_ = scalar(g_.pairs.particles);
+  if (!laid_) mesh_->lay(rows_, listed_);
+  laid_ = true;
+  const Geometry<D> g = g_;
+  const Field<double> inertia = inertia_, mass = mesh_mass_, depth = mesh_depth_;
+  Kokkos::parallel_for("sisph::mesh_rows", Range(0, g.pairs.particles), KOKKOS_LAMBDA(int i) {
+        mass(i) = g.free(i) * inertia(i);
+        depth(i) = g.omega(i) / inertia(i);
+      });
+  mesh_->set(mesh_mass_, mesh_depth_, stiffness);
+}
+
+template <int D>
+linear::CgReport MovingWater<D>::solve_linear(const linear::CgOptions& options, double stiffness) {
+  const auto product = [&](const Field<double>& x, const Field<double>& y) {
+    return sums_.template sum<1, 64>("sisph::product", g_.slices.count,
+                                     linear::PairProduct<SliceList>{g_.pairs, g_.slices, a_, diagonal_, g_.free, x, y})[0];
+  };
+  if (!mesh_on_) return cg_.solve(product, linear::Jacobi{inverse_}, right_, change_, options);
+  lay_mesh(stiffness);
+  return cg_.solve(product, linear::JacobiPlus<linear::ParticleMesh<D>>{inverse_, *mesh_}, right_, change_, options);
+}
+
 template <int D>
 void MovingWater<D>::solve_increment(double dt, bool again, MovingReport& report) {
   constexpr double round_off = 1e-14;  // of omega: water at rest needs no iteration
   const double stiffness = options_.gravity * options_.theta * options_.theta * dt * dt;
   const auto norms = sums_.template sum<2, 64>("sisph::increment", g_.slices.count,
                                                Increment<D>{g_, mixed_, inertia_, rise_, a_, right_, diagonal_, inverse_, stiffness, dt});
-  const auto product = [&](const Field<double>& x, const Field<double>& y) {
-    return sums_.template sum<1, 64>("sisph::product", g_.slices.count,
-                                     linear::PairProduct<SliceList>{g_.pairs, g_.slices, a_, diagonal_, g_.free, x, y})[0];
-  };
   linear::CgOptions cg;
   cg.tolerance = options_.cg_tolerance;
   cg.max_iterations = options_.cg_most;
   cg.scale = std::max(std::sqrt(norms[0]), round_off / cg.tolerance * std::sqrt(norms[1]));
   cg.from_zero = !again;
-  const linear::CgReport solved = cg_.solve(product, linear::Jacobi{inverse_}, right_, change_, cg);
+  const linear::CgReport solved = solve_linear(cg, stiffness);
+  if (solved.iterations > options_.mesh_from || (mesh_on_ && !again)) set_meshed(solved.iterations > options_.mesh_until);
   ++report.solves;
   report.iterations += solved.iterations;
   report.unsettled += solved.converged() ? 0 : 1;
@@ -220,6 +245,7 @@ MovingReport MovingWater<D>::step(const Swarm<D>& now, const BedSpline<D>* bed, 
   MovingReport report;
   const double at_start = jump_;
   list_pairs(now, reach(dt, at_start));
+  laid_ = false;
   start(now);
   for (int pass = 0; pass < options_.picard; ++pass) {
     if (pass > 0 && reach(dt, std::max(at_start, jump_)) > skin_ + 0.1 * options_.spacing)

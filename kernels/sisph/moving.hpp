@@ -6,8 +6,11 @@
 // rise: of the bed below the particle. The matrix acts on the increment alone: its error on disorder is of the order of dt^2 / l and
 // no closure is needed. Particles beside the domain keep their state and go on with the velocity they have.
 #pragma once
+#include <optional>
+
 #include "kernels/bed_spline.hpp"
 #include "kernels/linear/cg.hpp"
+#include "kernels/linear/particle_mesh.hpp"
 #include "kernels/sisph/geometry.hpp"
 #include "kernels/sisph/paths.hpp"
 
@@ -24,6 +27,7 @@ struct MovingOptions {
   bool linear = true;     // GeometryRequest::linear
   double cg_tolerance = 1e-6;
   int cg_most = 2000;
+  int mesh_from = 15, mesh_until = 3;  // iterations, as SurfaceOptions has them
 };
 
 // Sorted particles at time n.
@@ -50,6 +54,9 @@ class MovingWater {
   double jump() const { return jump_; }
   void set_jump(double jump) { jump_ = jump; }
   void measure_jump(const Swarm<D>& now);
+  // Whether the next solve has the particle-mesh correction; likewise.
+  bool meshed() const { return mesh_on_; }
+  void set_meshed(bool on) { mesh_on_ = on; }
 
   // From n to n+1; x, v, depth and bed are written, in the order that they are in. Allocates where neighbours outgrow their room.
   MovingReport step(const Swarm<D>& now, const BedSpline<D>* bed, const PathWeights& path, double dt);
@@ -61,6 +68,8 @@ class MovingWater {
   void place_images(const Swarm<D>& now);
   void predict(const Swarm<D>& now, double dt);
   void solve_increment(double dt, bool again, MovingReport& report);
+  void lay_mesh(double stiffness);
+  linear::CgReport solve_linear(const linear::CgOptions& options, double stiffness);
   void correct(const Swarm<D>& now, double dt);
   double find_jump(const VecField<double, D>& v);
   double arrive(const Swarm<D>& now, const BedSpline<D>* bed, const PathWeights& path, double dt);
@@ -76,6 +85,10 @@ class MovingWater {
   Geometry<D> g_;
   linear::ConjugateGradients cg_;
   OrderedSums sums_;
+  std::optional<linear::ParticleMesh<D>> mesh_;  // of the places at n
+  bool mesh_on_ = false, laid_ = false;          // laid: over the places of this step
+  Rows rows_;
+  Field<double> mesh_mass_, mesh_depth_;         // m^(D-1), m: with the mesh alone
   double jump_ = 0, skin_ = 0;  // m/s; m, by which listed pairs may approach each other
   VecField<double, D> listed_;  // places where pairs were listed, images included
   VecField<double, D> mixed_, star_, end_;  // v_th, v*, v^{n+1}

@@ -79,7 +79,7 @@ ScalarState Solver<D>::scalars() const {
           {"solver", {number(report_.passes), number(report_.solves), number(report_.iterations), number(report_.unsettled),
                       number(report_.newton_max)}}};
   if (moving_) {
-    state["moving"] = {moving_->jump(), last_dt_};
+    state["moving"] = {moving_->jump(), last_dt_, moving_->meshed() ? 1.0 : 0.0};
     return state;
   }
   if (open_) state["rim"] = open_->means();
@@ -100,6 +100,7 @@ void Solver<D>::restore(const ScalarState& state) {
   if (moving_) {
     moving_->set_jump(state.at("moving")[0]);
     last_dt_ = state.at("moving")[1];
+    moving_->set_meshed(state.at("moving")[2] > 0);
     settle_order();
     return measure_speeds();
   }

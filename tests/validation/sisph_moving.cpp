@@ -91,8 +91,9 @@ TEST_CASE("sisph moving: a hump in two dimensions, at rest and in a mean flow", 
     std::string disorder, velocity;
     double bound[2], order;
   };
+  // In a mean flow the corrected scheme was found to have 4.0e-3 and 1.6e-3 with steps twice as long; here motion makes no difference.
   for (const Run& c : {Run{"0", "[0,0]", {3.6e-3, 1.25e-3}, 1.3}, Run{"0.2", "[0,0]", {3.6e-3, 1.27e-3}, 1.3},
-                       Run{"0.2", "[1,0.5]", {4.4e-3, 1.76e-3}, 1}}) {
+                       Run{"0.2", "[1,0.5]", {3.6e-3, 1.27e-3}, 1.3}}) {
     double before = 0;
     for (const int n : {50, 100}) {
       const Result r = run("sisph_bump", at(n, 0.15 * 50 / (12.0 * n), {"sisph.theta=0.55", "water.disorder=" + c.disorder,
@@ -100,7 +101,7 @@ TEST_CASE("sisph moving: a hump in two dimensions, at rest and in a mean flow", 
       CAPTURE(c.disorder, c.velocity, n, r.depth_l2);
       CHECK(r.depth_l2 <= c.bound[n == 100]);
       if (n == 100) CHECK(std::log2(before / r.depth_l2) >= c.order);
-      CHECK(r.summary.mass.relative_error < 1e-14);
+      CHECK(r.summary.mass.relative_error < 1e-14);  // the masses stay to the bit; the order of their sum changes
       before = r.depth_l2;
     }
   }
