@@ -148,14 +148,14 @@ class Pairs {
   void build(int particles, const PairRequest<D>& request);
 
   // visit(i, put) calls put(j, slot) for every neighbour of i, the same ones each time that it is asked. images: some slot is
-  // not j.
+  // not j. Listing again keeps the room that there is; more is made with some to spare.
   template <class Visit>
   void list(int particles, const Visit& visit, bool images = false);
 
   const PairView& view() const { return view_; }
   int entries() const { return entries_; }  // of all slices; a coefficient has lanes times as many values
-  // A zero coefficient of every pair.
-  Field<double> coefficient(const std::string& label) const { return Field<double>(label, PairView::at(entries_)); }
+  // A zero coefficient of every pair that there is room for.
+  Field<double> coefficient(const std::string& label) const { return Field<double>(label, view_.j.extent(0)); }
   template <int D>
   VecField<double, D> vector_coefficient(const std::string& label) const;
 
@@ -164,12 +164,12 @@ class Pairs {
   int entries_ = 0;
 };
 
-// The first entry of each slice; the longest row of a slice is its number of entries. Free, as the next: nvcc takes no launch in a
-// private member.
+// The first entry of each slice, in view.start; the longest row of a slice is its number of entries. Returns that of all slices. Free, as
+// the next: nvcc takes no launch in a private member.
 template <class Visit>
-Field<int> first_entries(const PairView& view, const Visit& visit) {
+int place_slices(const PairView& view, const Visit& visit) {
   const int slices = view.slices();
-  const Field<int> start("cellgrid.pair_start", static_cast<size_t>(slices + 1));
+  const Field<int> start = view.start;
   Kokkos::parallel_for("cellgrid::count_pairs", Range(0, slices), KOKKOS_LAMBDA(int s) {
         const Lanes me = view(s);
         int longest = 0;
@@ -185,7 +185,9 @@ Field<int> first_entries(const PairView& view, const Visit& visit) {
         if (last) start(s) = sum;
         sum += here;
       });
-  return start;
+  int entries = 0;
+  Kokkos::deep_copy(entries, Kokkos::subview(start, slices));
+  return entries;
 }
 
 template <class Visit>
@@ -208,10 +210,15 @@ void fill_pairs(const PairView& view, const Visit& visit) {
 template <class Visit>
 void Pairs::list(int particles, const Visit& visit, bool images) {
   view_.particles = particles;
-  view_.start = first_entries(view_, visit);
-  Kokkos::deep_copy(entries_, Kokkos::subview(view_.start, view_.slices()));
-  view_.j = Field<int>(Kokkos::ViewAllocateWithoutInitializing("cellgrid.pair_j"), PairView::at(entries_));
-  view_.slot = images ? Field<int>(Kokkos::ViewAllocateWithoutInitializing("cellgrid.pair_slot"), PairView::at(entries_)) : view_.j;
+  const int slices = view_.slices();
+  if (view_.start.extent_int(0) <= slices) view_.start = Field<int>("cellgrid.pair_start", static_cast<size_t>(slices + 1));
+  entries_ = place_slices(view_, visit);
+  const size_t held = view_.j.extent(0), wanted = PairView::at(entries_), room = held > 0 ? wanted + wanted / 4 : wanted;
+  const auto indices = [](const char* label, size_t n) { return Field<int>(Kokkos::ViewAllocateWithoutInitializing(label), n); };
+  const bool fits = wanted <= held && held > 0, had_images = view_.slot.data() != view_.j.data();
+  if (!fits) view_.j = indices("cellgrid.pair_j", room);
+  if (!images) view_.slot = view_.j;
+  else if (!fits || !had_images) view_.slot = indices("cellgrid.pair_slot", view_.j.extent(0));
   fill_pairs(view_, visit);
 }
 
