@@ -122,6 +122,32 @@ KOKKOS_INLINE_FUNCTION void sort_by_id(int* order, int n, const int* id) {
     }
 }
 
+// A run of neighbouring blocks: over dry land its loops are a load and a store of a vector.
+struct Blocks {
+  static constexpr int run = 64;
+  Field<int> mark, block;
+  int first, end;
+
+  KOKKOS_FORCEINLINE_FUNCTION int kept() const {
+    int sum = 0;
+    for (int k = first; k < end; ++k) sum += mark(k);
+    return sum;
+  }
+
+  // Their first cells from `cell` on; clears the marks.
+  KOKKOS_FORCEINLINE_FUNCTION void number(int cell, int kept) const {
+    if (kept == 0) {
+      for (int k = first; k < end; ++k) block(k) = cell;
+      return;
+    }
+    for (int k = first; k < end; ++k) {
+      block(k) = cell;
+      cell += mark(k) * Rows::block_bins;
+      mark(k) = 0;
+    }
+  }
+};
+
 }  // namespace
 
 RowOrder::RowOrder(int dimension, double spacing) : dimension_(dimension), spacing_(spacing) {}
@@ -162,9 +188,10 @@ int RowOrder::keep_blocks(const FieldSet& particles) {
           if (k >= 0 && mark(k / Rows::block_bins) == 0) mark(k / Rows::block_bins) = 1;
         }
       });
-  Kokkos::parallel_scan("cellgrid::keep", Range(0, blocks + 1), KOKKOS_LAMBDA(int k, int& sum, bool last) {
-        const int kept = mark(k);
-        if (last) block(k) = sum, mark(k) = 0;
+  Kokkos::parallel_scan("cellgrid::keep", Range(0, blocks / Blocks::run + 1), KOKKOS_LAMBDA(int run, int& sum, bool last) {
+        const Blocks here{mark, block, run * Blocks::run, smaller((run + 1) * Blocks::run, blocks + 1)};
+        const int kept = here.kept();
+        if (last) here.number(sum, kept);
         sum += kept * Rows::block_bins;
       });
   int kept_cells = 0;
@@ -246,7 +273,8 @@ void RowOrder::measure_reach(const FieldSet& particles, const Field<double>& h, 
         const int b0 = tx * rows.tile_bins, b1 = smaller(b0 + rows.tile_bins, rows.bins);
         double m = 0;
         for (int r = ty * rows.tile_rows; r < smaller((ty + 1) * rows.tile_rows, rows.rows); ++r)
-          for (int i = rows.begin(r, b0); i < rows.end(r, b1 - 1); ++i) m = larger(m, h(i));
+          if (rows.row_begin(r) < rows.row_begin(r + 1))
+            for (int i = rows.begin(r, b0); i < rows.end(r, b1 - 1); ++i) m = larger(m, h(i));
         tile_h(t) = m;
       });
   Kokkos::parallel_for("cellgrid::reach", Range(0, tiles), KOKKOS_LAMBDA(int t) {

@@ -91,7 +91,7 @@ struct Summary {
   int threads = 0;
   int initial_particles = 0, final_particles = 0;
   long steps = 0, list_rebuilds = 0;
-  double simulated = 0, wall = 0;  // s
+  double simulated = 0, wall = 0;  // s, without comparisons with an exact solution
   double particle_steps_per_s = 0;
   SolverWork solver;
   MassBalance mass;

@@ -122,14 +122,20 @@ void Driver::check() {
   if (scene_.boundaries.empty()) energy_watch_.record(method_.mechanics(), clock_);
 }
 
-void Driver::fire_events() {
+void Driver::compare() {
+  const double begun = progress_.elapsed();
   for (; events_.comparisons.due(clock_.t); events_.comparisons.advance()) {
     l1_samples_.push_back(depth_l1(scene_, fluid_on_host(method_.fields()), clock_.t));
   }
-  for (; events_.profiles.due(clock_.t); events_.profiles.advance()) profiles_.record(method_, clock_.t);
   for (; events_.snapshots.due(clock_.t); events_.snapshots.advance()) {
     errors_at_.push_back({clock_.t, errors()});
   }
+  comparing_ += progress_.elapsed() - begun;
+}
+
+void Driver::fire_events() {
+  compare();
+  for (; events_.profiles.due(clock_.t); events_.profiles.advance()) profiles_.record(method_, clock_.t);
   if (events_.outputs.due(clock_.t)) {
     monitor_.check_all(method_, clock_);
     write_particles();
