@@ -8,7 +8,7 @@
 namespace freshet::fpm {
 namespace {
 
-constexpr double gap = 0.7;        // x dx: before walls that are just met
+constexpr double gap = 0.35;       // x dx: before walls that are just met
 constexpr double touching = 0.25;  // x dx: points that start nearer than this to a wall stand on it
 
 Period period_of(const Scene& scene) {
