@@ -76,7 +76,6 @@ void Points::make_fields(FieldSet& points) {
   points.integer("side", "1", Carry::state);
   points.integer("surface", "1", Carry::state);
   for (const char* name : {"open_x", "open_y"}) points.real(name, "1", Carry::state);
-  points.real("yield", "m/s", Carry::state);
 }
 
 Cloud Points::cloud(const FieldSet& points, const RowOrder& order) const {
@@ -209,16 +208,12 @@ void Points::settle_places(FieldSet& points, int n, int merged, int& next_id) {
 void Points::hold_velocities(FieldSet& points) {
   const Field<int> kind = points.integer("kind"), side = points.integer("side");
   const TankView tank = tank_.view();
-  const Field<double> yield = points.real("yield");
   const bool slip = rule_.slip;
   for (const auto& names : carried_.velocities) {
-    const bool first = &names == &carried_.velocities.front();
     const VecField<double, 2> v{points.real(names[0]), points.real(names[1])};
     Kokkos::parallel_for("fpm::hold_velocity", Range(0, points.size()), KOKKOS_LAMBDA(int i) {
-          if (first && kind(i) != on_wall) yield(i) = 0;
           if (kind(i) == in_fluid) return;
           const Vec<double, 2> n = tank.normal(side(i), kind(i)), u = at(v, i);
-          if (first && kind(i) == on_wall) yield(i) = smaller(yield(i), dot(u, n));  // those held before have no normal part
           put(v, i, kind(i) == on_wall && slip ? u - dot(u, n) * n : Vec<double, 2>{});
         });
   }

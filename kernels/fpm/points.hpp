@@ -39,8 +39,7 @@ struct PointReport {
 };
 
 // Fields of the set: x, y [m], id, dx [m] where the spacing varies, and those made here: kind (PointKind), side (of the tank,
-// -1 in the fluid), surface (0, 1), open_x, open_y (Cloud::open),
-// yield [m/s]: of points that have just come to a wall the speed towards it, negative (projection.hpp).
+// -1 in the fluid), surface (0, 1), open_x, open_y (Cloud::open).
 class Points {
  public:
   Points(const PointRule& rule, const Tank& tank, const Period& period, PointFields carried);

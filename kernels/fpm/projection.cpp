@@ -145,7 +145,7 @@ void Projection::find_sources(const Flow& flow, const Backward& time) {
   Kokkos::parallel_for("fpm::sources", Range(0, view.around.clusters.size()), KOKKOS_LAMBDA(int c) {
         const Lanes me = view.around.clusters(c);
         me.store(flow.source, factor * (view.divergence(c, flow.v_star) - Lane(flow.expansion)));
-        me.store(flow.flux, factor * (dot(me.load(flow.normal), me.load(flow.v_star)) - me.load(flow.yield)));
+        me.store(flow.flux, factor * dot(me.load(flow.normal), me.load(flow.v_star)));
       });
 }
 
@@ -160,12 +160,10 @@ void Projection::correct(const Flow& flow, const Backward& time) {
 
 void Projection::settle(const Flow& flow) {
   const bool slip = rule_.slip;
-  const double fade = rule_.fade;
   Kokkos::parallel_for("fpm::new_state", Range(0, flow.points), KOKKOS_LAMBDA(int i) {
         put(flow.v_old, i, at(flow.v, i));
         put(flow.v, i, held(flow, i, at(flow.v_star, i), slip));
         flow.p(i) = flow.row(i) == row_value ? 0.0 : flow.q(i) + flow.phi(i);
-        flow.yield(i) *= fade;
       });
 }
 

@@ -2,7 +2,7 @@
 // pressure by projection. With r = dt / dt before (0 in the first step), c0 = (1 + r)^2 / (1 + 2 r), c1 = -r^2 / (1 + 2 r),
 // tau = dt (1 + r) / (1 + 2 r):
 //   q = fitted p, 0 on the surface;  v* = c0 v + c1 v_old + tau (-grad q / rho + nu lap v + f)
-//   lap phi = rho (div v* - expansion) / tau;  walls: n . grad phi = rho (n . v* - yield) / tau;  surface: phi = -q
+//   lap phi = rho (div v* - expansion) / tau;  walls: n . grad phi = rho n . v* / tau;  surface: phi = -q
 //   v = v* - tau grad phi / rho, at walls held;  p = q + phi;  filtered: v next to walls and surface towards its fit
 // Viscosity taken implicitly: v* = ... + tau nu lap v* (viscosity.hpp). The term - rho nu div v* that (5.8) has in p then is left out: with it
 // still water is not stable (e-fold in 0.15 s at nu = 1 m2/s).
@@ -26,7 +26,6 @@ struct FlowRule {
   bool slip = true;           // walls; false: they hold the tangential velocity too
   double tolerance = 1e-9;    // of the pressure equation
   bool implicit = false;      // viscosity
-  double fade = 0;            // of yields from step to step
 };
 
 // A flow's fields; scratch: those below the line.
@@ -34,8 +33,6 @@ struct Flow {
   VecField<double, 2> x, v, v_old;  // m, m/s
   Field<double> p;                  // Pa
   Field<double> phi;                // Pa, its last change: the first guess of the next
-  Field<double> yield;              // m/s, normal speed at points on walls, negative where water has just come there: water that meets a
-                                    // wall is taken for water across a gap of up to 1.2 spacings, which closes while this fades
   Field<int> kind, side, surface;   // PointKind; of the tank; 1 on the free surface
   // ----
   VecField<double, 2> v_star, normal;

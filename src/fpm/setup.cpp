@@ -8,7 +8,6 @@
 namespace freshet::fpm {
 namespace {
 
-constexpr double gap = 0.35;       // x dx: before walls that are just met
 constexpr double touching = 0.25;  // x dx: points that start nearer than this to a wall stand on it
 
 Period period_of(const Scene& scene) {
@@ -35,11 +34,9 @@ Scheme scheme_of(PressureScheme scheme) {
   return scheme == PressureScheme::filtered ? Scheme::filtered : scheme == PressureScheme::incremental ? Scheme::incremental : scheme == PressureScheme::plain ? Scheme::plain : Scheme::projection;
 }
 
-FlowRule flow_rule(const Scene& scene) {
-  const Fpm& fpm = *scene.fpm;
-  const double fade = std::exp(-scene.cfl * fpm.support / gap);  // the fastest water crosses cfl x support spacings in a step
+FlowRule flow_rule(const Fpm& fpm) {
   return {fpm.density, fpm.viscosity, {fpm.force[0], fpm.force[1]}, scheme_of(fpm.scheme), fpm.slip, fpm.tolerance,
-          fpm.implicit_viscosity && fpm.viscosity > 0, fade};
+          fpm.implicit_viscosity && fpm.viscosity > 0};
 }
 
 }  // namespace
@@ -47,7 +44,7 @@ FlowRule flow_rule(const Scene& scene) {
 Solver::Solver(const Scene& scene)
     : scene_(scene), order_(2, scene.water.spacing), period_(period_of(scene)), tank_(lines_of(scene.walls)),
       management_(point_rule(scene), tank_, period_, {{{"u", "v"}, {"u_old", "v_old"}}, {"p"}}),
-      projection_(flow_rule(scene), tank_.view()) {
+      projection_(flow_rule(*scene.fpm), tank_.view()) {
   if (scene.fpm->grading) grading_.emplace(scene);
   place();
   order_.sort(points_);
@@ -75,7 +72,7 @@ void Solver::make_fields() {
 Flow Solver::bind() const {
   const FieldSet& f = points_;
   const auto pair = [&f](const char* x, const char* y) { return VecField<double, 2>{f.real(x), f.real(y)}; };
-  return {pair("x", "y"), pair("u", "v"), pair("u_old", "v_old"), f.real("p"), f.real("phi"), f.real("yield"), f.integer("kind"), f.integer("side"),
+  return {pair("x", "y"), pair("u", "v"), pair("u_old", "v_old"), f.real("p"), f.real("phi"), f.integer("kind"), f.integer("side"),
           f.integer("surface"), pair("u_star", "v_star"), pair("normal_x", "normal_y"), f.real("q"), f.real("source"),
           f.real("flux"), f.real("given"), f.integer("row"), f.size(), keeper_.expansion()};
 }
