@@ -13,16 +13,16 @@ struct Distances {
   double r2[room];
   int size = 0;
 
-  KOKKOS_INLINE_FUNCTION double count(double h) const {
-    double sum = 0;
-    for (int k = 0; k < size; ++k) sum += weight(r2[k] / (h * h));
-    return sum;
+  // Newton's step for n(h) = wanted on h: n' = sum of 2 steepness r^2 / h^3 w.
+  KOKKOS_INLINE_FUNCTION double newton(double h, double wanted) const {
+    double count = 0, slope = 0;
+    for (int k = 0; k < size; ++k) {
+      const double s = r2[k] / (h * h), w = weight(s);
+      count += w, slope += 2 * steepness * s * w;
+    }
+    return h * (1 + (wanted - count) / larger(slope, count));  // slope: h n'; few neighbours: as if n ~ h
   }
 };
-
-KOKKOS_INLINE_FUNCTION double next_support(double h, double wanted, double count, double low, double high) {
-  return clamp(h * root(wanted / count), low, high);  // the point itself: count >= 1
-}
 
 }  // namespace
 
@@ -39,7 +39,7 @@ SupportReport fit_supports(const Cloud& cloud, int n, const Field<double>& h, co
         });
         double now = h0, change = h0;
         for (int k = 0; k < rule.iterations && change > rule.settled * now; ++k) {
-          const double next = next_support(now, wanted, near.count(now), low, high);
+          const double next = clamp(near.newton(now, wanted), low, high);
           change = next > now ? next - now : now - next;
           now = next;
         }

@@ -199,7 +199,7 @@ struct Fpm {
   PressureScheme scheme = PressureScheme::filtered;
   bool implicit_viscosity = false;  // it does not limit the step then
   bool slip = true;        // walls; false: they also hold the tangential velocity
-  double tolerance = 1e-6;  // of the pressure equation
+  double tolerance = 1e-9;  // of the pressure equation
   std::array<bool, 2> periodic{};
   std::vector<Body> bodies;
 };

@@ -57,8 +57,8 @@ TEST_CASE("fpm supports: every inner point has the neighbours asked for, by brut
       int inner = 0;
       s.for_each_inner(stretch, [&](int i) {
         ++inner;
-        // Settled to 1e-6 of h where the count grows with h squared.
-        CHECK(s.count(i) == Approx(wanted).epsilon(1e-5));
+        // Newton's steps end below 1e-3 of h, the next would be of its square; points at r = h count 2e-4 of the sum, or nothing.
+        CHECK(s.count(i) == Approx(wanted).epsilon(1e-3));
       });
       REQUIRE(inner > 100);
     }
@@ -72,7 +72,8 @@ TEST_CASE("fpm supports: on a lattice they are the given ones, at its sides wide
     const Point p = s.set.at(i);
     const bool side = p[0] < 0.01 * dx, corner = side && p[1] < 0.01 * dx;
     if (corner) CHECK(s.h(i) == Approx(1.5 * 3.2 * dx));
-    else if (side && p[1] > 6 * dx && p[1] < 18 * dx) CHECK(s.h(i) > 1.2 * 3.2 * dx);
+    // Half a plane and half of the line on its edge: pi a^2 / 14 + a root(pi / 28) = pi 3.2^2 / 7 at a = 3.840.
+    else if (side && p[1] > 6 * dx && p[1] < 18 * dx) CHECK(s.h(i) == Approx(3.84 * dx).epsilon(1e-3));
   }
 }
 
