@@ -111,7 +111,8 @@ std::string profile(const Transect& profile, const Domain& domain) {
 std::string sisph_numerics(const Scene& scene) {
   const Sisph& sisph = scene.sisph;
   const std::string step = scene.time_step > 0 ? "time step " + brief(scene.time_step) + " s" : "celerity Courant number " + brief(sisph.courant);
-  return "sisph, " + name_in(kernel_names(), sisph.kernel) + " kernel, l/dx " + brief(sisph.smoothing) + ", theta " + brief(sisph.theta) + ", Picard " + std::to_string(sisph.picard) +
+  const bool moving = sisph.formulation == Sisph::Formulation::moving;
+  return (moving ? "sisph, moving, " : "sisph, ") + name_in(kernel_names(), sisph.kernel) + " kernel, l/dx " + brief(sisph.smoothing) + ", theta " + brief(sisph.theta) + ", Picard " + std::to_string(sisph.picard) +
          ", " + step;
 }
 

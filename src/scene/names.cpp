@@ -25,6 +25,24 @@ const Names<Sisph::Momentum>& momentum_names() {
   return names;
 }
 
+const Names<Sisph::Formulation>& formulation_names() {
+  static const Names<Sisph::Formulation> names{{"at-rest", Sisph::Formulation::at_rest}, {"moving", Sisph::Formulation::moving}};
+  return names;
+}
+
+const Names<Sisph::Paths>& path_names() {
+  using Paths = Sisph::Paths;
+  static const Names<Paths> names{
+      {"theta", Paths::theta}, {"euler", Paths::euler}, {"rk2", Paths::rk2}, {"rk3", Paths::rk3}, {"leap-frog", Paths::leap_frog}};
+  return names;
+}
+
+const Names<Sisph::Correction>& correction_names() {
+  static const Names<Sisph::Correction> names{{"krongauz-belytschko", Sisph::Correction::krongauz_belytschko},
+                                              {"shepard", Sisph::Correction::shepard}};
+  return names;
+}
+
 std::string name_of(Stabilisation stabilisation) {
   switch (stabilisation) {
     case Stabilisation::none: return "not stabilised";

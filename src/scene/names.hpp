@@ -14,6 +14,9 @@ using Names = std::vector<std::pair<std::string, E>>;
 const Names<KernelName>& kernel_names();
 const Names<Walling>& walling_names();
 const Names<Sisph::Momentum>& momentum_names();
+const Names<Sisph::Formulation>& formulation_names();
+const Names<Sisph::Paths>& path_names();
+const Names<Sisph::Correction>& correction_names();
 std::string name_of(Stabilisation stabilisation);  // "Lax-Friedrichs with MUSCL"
 
 template <class E>

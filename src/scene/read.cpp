@@ -71,6 +71,7 @@ void read_sections(Table& root, Scene& scene) {
   read_each(root, "boundary", scene, read_boundary);
   read_each(root, "wall", scene, read_wall);
   note_leaks(root, scene);
+  check_formulation(sisph, scene);
   if (scene.sph.well_balanced && !scene.boundaries.empty())
     sph.error("well_balanced", "a well-balanced run needs a basin without open boundaries", "remove one of the two");
   read_each(root, "gauge", scene, read_gauge);

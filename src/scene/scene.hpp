@@ -132,8 +132,13 @@ struct Sph {
   bool well_balanced = false;  // still water over any bed stays at rest to round-off (kernels/swe/well_balanced.hpp)
 };
 
-// The semi-implicit method on particles at rest.
+// The semi-implicit method.
 struct Sisph {
+  enum class Formulation { at_rest, moving };  // E: particles at rest, wet or dry; L: they move with the water, one mass each
+  // How a moving particle's path follows from its velocities (kernels/sisph/paths.hpp).
+  enum class Paths { theta, euler, rk2, rk3, leap_frog };
+  // The slope of a field: exact for linear fields, or normalised by Shepard's sum alone.
+  enum class Correction { krongauz_belytschko, shepard };
   // automatic: mass_flux where some place starts dry; conservative: mass_flux with pairwise antisymmetric pressure
   enum class Momentum { automatic, semi_lagrangian, mass_flux, conservative };
   struct Solver {
@@ -146,6 +151,10 @@ struct Sisph {
   int picard = 2;
   Momentum momentum = Momentum::automatic;
   bool closure = true;     // pair areas closed: sum_j A_ij n_ij = 0
+  Correction correction = Correction::krongauz_belytschko;
+  Formulation formulation = Formulation::at_rest;
+  Paths paths = Paths::theta;  // moving
+  double jump = 0.25;          // moving: |v_i - v_j| dt / dx of neighbours at most
   Solver cg{1e-6, 2000}, newton{1e-6, 60};
   double courant = 1;      // celerity x dt / dx, where the scene names no time.dt
   double advection = 0;    // |v| dt / dx at most; 0 = by the momentum: none (semi-Lagrangian), 0.7 (mass flux)

@@ -15,6 +15,7 @@ void read_domain(Table& section, Scene& scene);         // [domain] box
 bool read_sph(Table& section, Scene& scene);
 
 void read_sisph(Table& section, Scene& scene);  // [sisph]
+void check_formulation(Table& section, const Scene& scene);  // of [sisph], once all else is read
 
 // [bed]. Needs the domain, water.spacing and sph.eta.
 void read_bed(Table& section, Scene& scene);

@@ -25,11 +25,32 @@ void read_sisph(Table& section, Scene& scene) {
   sisph.picard = section.integer("picard").within(1, 20).otherwise(sisph.picard);
   sisph.momentum = section.choice<Sisph::Momentum>("momentum", momentum_names()).otherwise(sisph.momentum);
   sisph.closure = section.boolean("closure").otherwise(sisph.closure);
+  sisph.correction = section.choice<Sisph::Correction>("correction", correction_names()).otherwise(sisph.correction);
+  sisph.formulation = section.choice<Sisph::Formulation>("formulation", formulation_names()).otherwise(sisph.formulation);
+  sisph.paths = section.choice<Sisph::Paths>("paths", path_names()).otherwise(sisph.paths);
+  sisph.jump = section.number("jump").within(0.01, 1).otherwise(sisph.jump);
   read_solver(section, "cg", sisph.cg);
   read_solver(section, "newton", sisph.newton);
   sisph.courant = section.number("courant").positive().otherwise(sisph.courant);
   sisph.advection = section.number("advection").positive().otherwise(sisph.advection);
   if (scene.method == "sisph") scene.sph.eta = sisph.smoothing;
+}
+
+// What each formulation leaves to the other.
+void check_formulation(Table& section, const Scene& scene) {
+  if (scene.method != "sisph") return;
+  const auto foreign = [&](const char* key, const std::string& belongs, const std::string& help) {
+    if (section.has(key)) section.error(key, "'sisph." + std::string(key) + "' is for particles " + belongs + " alone", help);
+  };
+  if (scene.sisph.formulation == Sisph::Formulation::at_rest) {
+    for (const char* key : {"paths", "jump"}) foreign(key, "that move", "leave it out, or sisph.formulation = \"moving\"");
+    return;
+  }
+  for (const char* key : {"momentum", "closure", "newton", "advection"})
+    foreign(key, "at rest", "leave it out, or sisph.formulation = \"at-rest\"");
+  const std::string help = "leave it out, or sisph.formulation = \"at-rest\"";
+  if (!scene.boundaries.empty()) section.error("formulation", "particles that move know no open boundaries ([[boundary]])", help);
+  if (scene.manning) section.error("formulation", "particles that move know no friction (bed.manning)", help);
 }
 
 }  // namespace freshet::input
