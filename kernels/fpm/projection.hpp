@@ -53,7 +53,7 @@ struct ProjectionReport {
   PoissonReport poisson;
   linear::BiCgStabReport viscosity;  // where it is implicit
   int poor = 0;  // points whose neighbours do not determine all derivatives
-  int limited = 0;  // points whose velocity was held within that of the points around (spray.hpp)
+  int limited = 0;  // points whose speed was held to the largest around (spray.hpp)
 };
 
 // x += dt (v + r/2 (v - v_old)), to second order where the accelerations of this step are those of the last; wrapped into the period.

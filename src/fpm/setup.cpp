@@ -142,7 +142,7 @@ std::vector<std::string> Solver::notes() const {
   if (limited_ == 0) return all;
   char text[300];
   std::snprintf(text, sizeof text,
-                "films, threads and shreds without inner points: %ld velocities (%.2g %% of points x steps) were held within those of the points around",
+                "films, threads and shreds without inner points: %ld velocities (%.2g %% of points x steps) were held to the largest speed around",
                 limited_, 100.0 * static_cast<double>(limited_) / static_cast<double>(moved_));
   all.emplace_back(text);
   return all;
