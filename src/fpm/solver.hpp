@@ -34,10 +34,8 @@ class Solver : public Method {
 
  private:
   void make_fields();
-  void place();
   Flow bind() const;
   void size_supports();
-  Field<double> cell_areas() const;  // m2, of each point
 
   Scene scene_;
   FieldSet points_;
@@ -60,6 +58,8 @@ class Solver : public Method {
   int next_id_ = 0;
 
  public:  // device lambdas may not live in private members
+  void place();
+  Field<double> cell_areas() const;  // m2, of each point
   void seat_on_walls();
 };
 
