@@ -29,7 +29,7 @@ KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 1> guarded_inverse(const Sym<Lane, 1>& m) 
 }
 KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 2> guarded_inverse(const Sym<Lane, 2>& m) {
   const Lane half = 0.5 * trace(m), flat = m.xx * m.yy - m.xy * m.xy;
-  const Lane extra = select(flat < 0.05 * half * half, 0.2 * half, Lane(0.0));
+  const Lane extra = k_det > 0 ? 0.2 * half * larger(1.0 - flat / (0.05 * half * half + 1e-300), Lane(0.0)) : select(flat < 0.05 * half * half, 0.2 * half, Lane(0.0));
   const Lane xx = m.xx + extra, yy = m.yy + extra, det = xx * yy - m.xy * m.xy;
   const Lane per = select(Lane(1e-24) < half, 1.0 / (det + least_moment), Lane(0.0));
   return {per * yy, -per * m.xy, per * xx};
@@ -63,21 +63,13 @@ struct Drying {
     // Weights of order one, so that "nearly zero" means something.
     const Lane per = 1.0 / deepest;
     const Vec<Lane, D> smooth = me.load(g.inverse) * sum, front = guarded_inverse(scaled(moment, per)) * (per * weighted);
-    const auto at_front = !(Lane(0.0) < lowest);
-    me.store(gradient, free_lanes(g, me) * chosen(at_front, front, smooth));
+    const Lane away = larger(smaller(lowest * per / k_grad, Lane(1.0)), Lane(0.0));
+    me.store(gradient, free_lanes(g, me) * (front + away * (smooth - front)));
   }
 
  private:
   static KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 1> scaled(const Sym<Lane, 1>& m, Lane f) { return {f * m.xx}; }
   static KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 2> scaled(const Sym<Lane, 2>& m, Lane f) { return {f * m.xx, f * m.xy, f * m.yy}; }
-  template <class Mask>
-  static KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 1> chosen(Mask m, const Vec<Lane, 1>& a, const Vec<Lane, 1>& b) {
-    return {select(m, a.x, b.x)};
-  }
-  template <class Mask>
-  static KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 2> chosen(Mask m, const Vec<Lane, 2>& a, const Vec<Lane, 2>& b) {
-    return {select(m, a.x, b.x), select(m, a.y, b.y)};
-  }
 };
 
 template <int D>
@@ -88,7 +80,6 @@ struct Velocities {
   VelocityGradient<D> out;
 
   KOKKOS_FUNCTION void operator()(int k) const {
-    constexpr double thin = 0.2;  // of the deeper of two
     const int s = active(k);
     const Lanes me = g.pairs(s);
     const Vec<Lane, D> vi = me.load(water.v);
@@ -102,7 +93,7 @@ struct Velocities {
       of_u += (w * difference.x) * n;
       if constexpr (D == 2) of_v += (w * difference.y) * n;
     });
-    const Lane kept = select(Lane(thin) < least_share, free_lanes(g, me), Lane(0.0));
+    const Lane kept = free_lanes(g, me) * larger(smaller((least_share - k_vlo) / (k_vhi - k_vlo), Lane(1.0)), Lane(0.0));
     const Sym<Lane, D> inverse = me.load(g.inverse);
     me.store(out.u, kept * (inverse * of_u));
     if constexpr (D == 2) me.store(out.v, kept * (inverse * of_v));

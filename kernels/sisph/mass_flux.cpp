@@ -22,7 +22,8 @@ struct Fluxes {
 };
 
 // H^{n+1} = H^n - (dt / omega) sum_j F_ij, the share of the outflow that there is water for, that of the velocity's slope that
-// keeps the momentum convex (the water that stays, measured in what leaves), and the least depth.
+// keeps the momentum convex (the water that stays, measured in what leaves), and the least depth. The margin is more than the sums'
+// round-off: one that gives all it has is not below zero, and the limiter not asked again.
 template <int D>
 struct Depths {
   Geometry<D> g;
@@ -31,6 +32,7 @@ struct Depths {
   double dt;
 
   KOKKOS_FUNCTION void operator()(int k, double& least) const {
+    constexpr double margin = 1e-14;
     const int s = active(k);
     const Lanes me = g.pairs(s);
     Lane in(0.0), out(0.0);
@@ -42,7 +44,7 @@ struct Depths {
     const Lane volume = me.load(g.omega) * me.load(before), free = free_lanes(g, me), has = volume + dt * in;
     const Lane after = select(Lane(0.5) < free, (has - dt * out) / me.load(g.omega), me.load(depth));
     me.store(depth, after);
-    me.store(share, select((after < Lane(0.0)) & (Lane(0.5) < free), has / (dt * out + 1e-300), Lane(1.0)));
+    me.store(share, select((after < Lane(0.0)) & (Lane(0.5) < free), (1.0 - margin) * has / (dt * out + 1e-300), Lane(1.0)));
     me.store(slope_share, smaller(larger(volume - dt * out, Lane(0.0)) / (dt * out + 1e-300), Lane(1.0)));
     least = smaller(least, smallest(after));
   }

@@ -204,9 +204,11 @@ SemiLagrangian<D>::SemiLagrangian(const Geometry<D>& g, const Rows& rows, double
 }
 
 template <int D>
-void SemiLagrangian<D>::fit(const VecField<double, D>& v, const VecField<double, D>& u) {
-  g_.images.fill(v);
-  g_.images.fill(u);
+void SemiLagrangian<D>::fit(const VecField<double, D>& v, const VecField<double, D>& u, bool slip) {
+  for (const VecField<double, D>& field : {v, u}) {
+    if (slip) g_.images.fill(field);
+    else g_.images.fill_opposed(field);
+  }
   Kokkos::parallel_for("sisph::fit", Range(0, g_.slices.count),
                        Fit<D>{g_, 1 / spacing_, 1 / support_, stride_, inverse_, v, u, fitted_});
 }

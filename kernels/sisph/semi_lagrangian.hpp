@@ -15,8 +15,8 @@ class SemiLagrangian {
   // length: m, that the polynomials' coordinates are measured in; support: m, of the pairs.
   SemiLagrangian(const Geometry<D>& g, const Rows& rows, double spacing, double support);
 
-  // The polynomials of v and u.
-  void fit(const VecField<double, D>& v, const VecField<double, D>& u);
+  // The polynomials of v and u; slip: how walls mirror them.
+  void fit(const VecField<double, D>& v, const VecField<double, D>& u, bool slip = true);
   // carried = Fu for the end velocity `last` of the pass before.
   void trace(const VecField<double, D>& v, const VecField<double, D>& u, const VecField<double, D>& last, double dt,
              const VecField<double, D>& carried) const;

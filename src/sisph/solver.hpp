@@ -15,6 +15,7 @@
 #include "kernels/sisph/open.hpp"
 #include "kernels/sisph/rim.hpp"
 #include "kernels/sisph/semi_lagrangian.hpp"
+#include "kernels/sisph/viscosity.hpp"
 #include "src/method.hpp"
 
 namespace freshet::sisph {
@@ -59,6 +60,8 @@ class Solver : public Method {
   void find_push(double theta, bool drying);
   void extend_slope(const Field<double>& depth);
   void slow_down(const VecField<double, D>& v);
+  void find_viscous(double dt);
+  void add_viscous(const VecField<double, D>& v);
   void push(const VecField<double, D>& from, double impulse, const VecField<double, D>& to);
   void blend(double dt);
   void solve_surface(double dt, bool drying);
@@ -85,6 +88,7 @@ class Solver : public Method {
   std::optional<MassFlux<D>> fluxes_;
   std::optional<Rim<D>> rim_;
   std::optional<OpenRim<D>> open_;
+  std::optional<Viscosity<D>> viscosity_;
   Field<double> g_n2_, drag_;  // friction: g n^2 of the ground, dt gamma; empty without
   VecField<double, D> slope_, explicit_, carried_, before_, end_;  // grad eta; velocities, m/s
   VelocityGradient<D> velocity_gradient_;
