@@ -11,7 +11,6 @@
 #include "kernels/linear/cg.hpp"
 #include "kernels/linear/particle_mesh.hpp"
 #include "kernels/sisph/geometry.hpp"
-#include "kernels/sisph/knobs.hpp"
 
 namespace freshet::sisph {
 
@@ -19,7 +18,8 @@ namespace freshet::sisph {
 // what rounding leaves of a film, or not, is the same to its neighbours.
 template <class V>
 KOKKOS_FORCEINLINE_FUNCTION V wetness(V thinner, V deeper) {
-  return smaller(thinner / (k_thin * deeper + 1e-300), V(1.0));
+  constexpr double alike = 0.2;
+  return smaller(thinner / (alike * deeper + 1e-300), V(1.0));
 }
 
 // Depth between two particles: their mean where both are wet, the water above the higher bed where one is dry, and a mean of the two
