@@ -16,8 +16,11 @@ SymField<double, 2> sym_field<2>(const std::string& name, size_t n) {
   return {Field<double>(name + "_xx", n), Field<double>(name + "_xy", n), Field<double>(name + "_yy", n)};
 }
 
-// n, d, G (in weight) of every pair, and omega before it is scaled.
-template <int D, class Kernel>
+KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 1> isotropic(Lane a, const Sym<Lane, 1>&) { return {a}; }
+KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 2> isotropic(Lane a, const Sym<Lane, 2>&) { return {a, Lane(0.0), a}; }
+
+// n, d, G (in weight) of every pair, and (sized) omega before it is scaled.
+template <int D, class Kernel, bool sized>
 struct Measure {
   Geometry<D> g;
   Field<double> h;
@@ -39,7 +42,7 @@ struct Measure {
       PairView::store(g.weight, e, -here * norm * inv_h * k.dw);
       sum += here * norm * k.w;
     });
-    me.store(g.omega, 1.0 / sum);
+    if constexpr (sized) me.store(g.omega, 1.0 / sum);
   }
 };
 
@@ -47,6 +50,7 @@ template <int D>
 struct Moments {
   Geometry<D> g;
   double regular;
+  bool linear;
 
   KOKKOS_FUNCTION void operator()(int s) const {
     const Lanes me = g.pairs(s);
@@ -55,11 +59,21 @@ struct Moments {
       const Lane w = PairView::load(g.weight, e) * gather(g.omega.data(), j) * PairView::load(g.distance, e);
       sum += outer(PairView::load(g.n, e), w);
     });
-    const Lane free = free_lanes(g, me);
-    me.store(g.moment, select(Lane(0.5) < free, (1.0 / D) * trace(sum), Lane(regular)));
-    me.store(g.inverse, inverted(sum));
+    const Lane free = free_lanes(g, me), mean = (1.0 / D) * trace(sum);
+    me.store(g.moment, select(Lane(0.5) < free, mean, Lane(regular)));
+    me.store(g.inverse, inverted(linear ? sum : isotropic(mean, sum)));
   }
 };
+
+template <int D>
+void measure_pairs(const Geometry<D>& g, const Shapes<D>& shapes, bool sized) {
+  const Range all(0, g.pairs.slices());
+  std::visit([&](const auto& k) {
+    using Kernel = std::decay_t<decltype(k)>;
+    if (sized) Kokkos::parallel_for("sisph::measure", all, Measure<D, Kernel, true>{g, shapes.h, k});
+    else Kokkos::parallel_for("sisph::measure", all, Measure<D, Kernel, false>{g, shapes.h, k});
+  }, shapes.kernel);
+}
 
 template <int D>
 struct Areas {
@@ -75,6 +89,13 @@ struct Areas {
     });
   }
 };
+
+template <int D>
+void measure_areas(const Geometry<D>& g, const Shapes<D>& shapes) {
+  const Range all(0, g.pairs.slices());
+  Kokkos::parallel_for("sisph::moments", all, Moments<D>{g, shapes.held_moment, shapes.linear});
+  Kokkos::parallel_for("sisph::areas", all, Areas<D>{g});
+}
 
 // omega of free particles scaled to `cell` on average; held ones have just that.
 template <int D>
@@ -135,18 +156,22 @@ Geometry<D> measure_geometry(int particles, const AnyKernel<D>& kernel, const Ge
                 place_images<D>(particles, paired, request.walls, images), field("sisph.omega"),
                 field("sisph.moment"), field("sisph.free"), sym_field<D>("sisph.inverse", static_cast<size_t>(particles) + lanes), {}};
   list_free_slices(g, request.held);
-  const Range all(0, g.pairs.slices());
-  std::visit([&](const auto& k) {
-    using Kernel = std::decay_t<decltype(k)>;
-    Kokkos::parallel_for("sisph::measure", all, Measure<D, Kernel>{g, request.h, k});
-  }, kernel);
-  scale_areas(g, request.cell);
   const double h = request.h.extent(0) > 0 ? on_host(Kokkos::subview(request.h, std::make_pair(0, 1)))(0) : request.spacing;
-  Kokkos::parallel_for("sisph::moments", all, Moments<D>{g, lattice_moment<D>(kernel, h, request.spacing)});
-  Kokkos::parallel_for("sisph::areas", all, Areas<D>{g});
+  const Shapes<D> shapes{kernel, request.h, lattice_moment<D>(kernel, h, request.spacing), request.linear};
+  measure_pairs(g, shapes, true);
+  scale_areas(g, request.cell);
+  measure_areas(g, shapes);
   return g;
 }
 
+template <int D>
+void measure_again(const Geometry<D>& g, const Shapes<D>& shapes) {
+  measure_pairs(g, shapes, false);
+  measure_areas(g, shapes);
+}
+
+template void measure_again(const Geometry<1>&, const Shapes<1>&);
+template void measure_again(const Geometry<2>&, const Shapes<2>&);
 template Geometry<1> measure_geometry(int, const AnyKernel<1>&, const GeometryRequest<1>&);
 template Geometry<2> measure_geometry(int, const AnyKernel<2>&, const GeometryRequest<2>&);
 template double lattice_moment<1>(const AnyKernel<1>&, double, double);

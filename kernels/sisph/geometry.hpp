@@ -46,11 +46,24 @@ struct GeometryRequest {
   double spacing;         // m, of the lattice
   double cell;            // m^D, that a particle covers on average
   MirrorWalls<D> walls = {};  // none, or those that images stand behind
+  bool linear = true;     // gradients exact for linear fields (Krongauz and Belytschko); false: S_i = s_i 1 (Shepard)
 };
 
 // Everything but the closure. Allocates; not for use inside a step.
 template <int D>
 Geometry<D> measure_geometry(int particles, const AnyKernel<D>& kernel, const GeometryRequest<D>& request);
+
+// What coefficients follow from where particles stand.
+template <int D>
+struct Shapes {
+  AnyKernel<D> kernel;
+  Field<double> h;     // m
+  double held_moment;  // s of held particles
+  bool linear;         // as in the request
+};
+// Particles that moved: all but the pairs and omega, which are the caller's.
+template <int D>
+void measure_again(const Geometry<D>& g, const Shapes<D>& shapes);
 
 // sum of dx^D G d / D over a lattice: s of a particle among regular neighbours.
 template <int D>

@@ -26,6 +26,8 @@ Allowed allowed_in(const Scene& scene) {
     const double spacing = std::max(dx, b.spacing), longest = scene.sph.h_cap * scene.sph.eta * spacing;
     margin = std::max({margin, near + buffer_in_dx * spacing, buffer_in_h * longest + spacing});
   }
+  // Water without walls that moves as it is goes on for good.
+  if (scene.method == "sisph" && scene.sisph.formulation == Sisph::Formulation::moving && scene.walls.empty()) margin = infinity;
   const Point low = scene.domain.low, high = scene.domain.high;
   const bool flat = scene.domain.dimension == 1;
   return {low[0] - margin,

@@ -6,9 +6,10 @@ namespace freshet::sisph {
 template <int D>
 Totals Solver<D>::totals() const {
   Totals totals = passed_;
-  const Field<double> omega = geometry_.omega, free = geometry_.free, depth = particles_.real("depth");
+  const Field<double> mass = particles_.real("mass");
+  const Field<int> kind = particles_.integer("kind");
   totals.mass = sums_.template sum<1>("sisph::mass", particles_.size(), KOKKOS_LAMBDA(int i) {
-    return Kokkos::Array<double, 1>{{free(i) * omega(i) * depth(i)}};
+    return Kokkos::Array<double, 1>{{kind(i) > 0 ? 0.0 : mass(i)}};
   })[0];
   totals.flux = totals.inflow - totals.outflow;
   totals.flux_gross = totals.inflow + totals.outflow;
@@ -18,11 +19,12 @@ Totals Solver<D>::totals() const {
 template <int D>
 Mechanics Solver<D>::mechanics() const {
   const Water<D> now = water();
-  const Field<double> omega = geometry_.omega, free = geometry_.free;
+  const Field<double> mass = particles_.real("mass");
+  const Field<int> kind = particles_.integer("kind");
   const double g = scene_.gravity;
   const auto sums = sums_.template sum<4>("sisph::mechanics", particles_.size(), KOKKOS_LAMBDA(int i) {
     const Vec<double, D> v = at(now.v, i);
-    const double h = now.depth(i), m = free(i) * omega(i) * h;
+    const double h = now.depth(i), m = kind(i) > 0 ? 0.0 : mass(i);
     double across = 0;
     if constexpr (D == 2) across = v.y;
     return Kokkos::Array<double, 4>{{m * v.x, m * across, 0.5 * m * dot(v, v), m * g * (now.bed(i) + 0.5 * h)}};
@@ -49,19 +51,25 @@ double Solver<D>::highest_wet_bed(const Point& point, double radius, double min_
 
 template <int D>
 std::vector<std::string> Solver<D>::features() const {
-  std::vector<std::string> names{name_in(kernel_names(), scene_.sisph.kernel) + " kernel", "particles at rest",
-                                 paths_ ? "velocity along particle paths" : "momentum carried by the mass fluxes"};
+  std::vector<std::string> names{name_in(kernel_names(), scene_.sisph.kernel) + " kernel"};
+  if (scene_.sisph.correction == Sisph::Correction::shepard) names.push_back("slopes normalised by Shepard's sum alone");
+  if (moving_) {
+    names.push_back("particles that move with the water, paths by " + name_in(path_names(), scene_.sisph.paths));
+  } else {
+    names.push_back("particles at rest");
+    names.push_back(paths_ ? "velocity along particle paths" : "momentum carried by the mass fluxes");
+  }
   if (conservative_) names.push_back("conservative pressure");
   if (closure_.iterations > 0)
     names.push_back("pair areas closed in " + std::to_string(closure_.iterations) + " iterations, largest change " +
                     std::to_string(closure_.change));
   if (closure_.negative > 0) names.push_back(std::to_string(closure_.negative) + " pair areas below zero");
   if (bed_) names.push_back("bed");
-  if (geometry_.images.count > 0) names.push_back("walls of mirror pairs");
+  if (!scene_.walls.empty()) names.push_back("walls of mirror pairs");
   if (scene_.manning) names.push_back("friction, implicit");
   if (viscosity_) names.push_back(scene_.sisph.slip ? "viscosity, implicit" : "viscosity, implicit; walls hold the water");
   if (open_) names.push_back(std::to_string(scene_.boundaries.size()) + " open " + (scene_.boundaries.size() == 1 ? "boundary" : "boundaries"));
-  if (held_ > static_cast<int>(open_ ? open_->size() : 0)) names.push_back("sides held at their state at t = 0");
+  if (held_ > static_cast<int>(open_ ? open_->size() : 0)) names.push_back(moving_ ? "sides that go on with their velocity at t = 0" : "sides held at their state at t = 0");
   return names;
 }
 
@@ -71,6 +79,10 @@ ScalarState Solver<D>::scalars() const {
   ScalarState state{{"passed", {passed_.inflow, passed_.outflow}},
           {"solver", {number(report_.passes), number(report_.solves), number(report_.iterations), number(report_.unsettled),
                       number(report_.newton_max)}}};
+  if (moving_) {
+    state["moving"] = {moving_->jump(), last_dt_, moving_->meshed() ? 1.0 : 0.0};
+    return state;
+  }
   if (open_) state["rim"] = open_->means();
   state["mesh"] = {surface_->meshed() ? 1.0 : 0.0};
   return state;
@@ -86,6 +98,13 @@ void Solver<D>::restore(const ScalarState& state) {
   report_.iterations = static_cast<long>(solver[2]);
   report_.unsettled = static_cast<long>(solver[3]);
   report_.newton_max = static_cast<int>(solver[4]);
+  if (moving_) {
+    moving_->set_jump(state.at("moving")[0]);
+    last_dt_ = state.at("moving")[1];
+    moving_->set_meshed(state.at("moving")[2] > 0);
+    settle_order();
+    return measure_speeds();
+  }
   surface_->set_meshed(state.at("mesh")[0] > 0);
   if (open_) open_->set_means(state.at("rim"));
   measure_speeds();

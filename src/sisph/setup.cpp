@@ -74,20 +74,6 @@ VecField<double, 2> scratch<2>(const std::string& label, int n) {
   return {Field<double>(label, static_cast<std::size_t>(n) + lanes), Field<double>(label, static_cast<std::size_t>(n) + lanes)};
 }
 
-// Walls that end at a side of the domain go on beside the rim.
-template <int D>
-MirrorWalls<D> walls_of(const Scene& scene, double support) {
-  std::vector<Polyline> lines;
-  for (const Wall& wall : scene.walls) lines.push_back(wall.line);
-  const Domain& domain = scene.domain;
-  const double dx = scene.water.spacing;
-  return MirrorWalls<D>(lines, (2 * support * scene.sisph.smoothing + 2) * dx, [&](const Point& end) {
-    for (std::size_t axis = 0; axis < 2; ++axis)
-      if (std::abs(end[axis] - domain.low[axis]) < 0.5 * dx || std::abs(end[axis] - domain.high[axis]) < 0.5 * dx) return true;
-    return false;
-  });
-}
-
 VecField<double, 1> vector_field(const FieldSet& f, const char* x, const char*, Vec<double, 1>) { return {f.real(x)}; }
 VecField<double, 2> vector_field(const FieldSet& f, const char* x, const char* y, Vec<double, 2>) { return {f.real(x), f.real(y)}; }
 
@@ -101,6 +87,20 @@ void for_each_place(const VecField<double, D>& x, int particles, const See& see)
 }
 
 }  // namespace
+
+// Walls that end at a side of the domain go on beside the rim.
+template <int D>
+MirrorWalls<D> Solver<D>::mirror_walls() const {
+  std::vector<Polyline> lines;
+  for (const Wall& wall : scene_.walls) lines.push_back(wall.line);
+  const Domain& domain = scene_.domain;
+  const double dx = scene_.water.spacing;
+  return MirrorWalls<D>(lines, (2 * support_ * scene_.sisph.smoothing + 2) * dx, [&](const Point& end) {
+    for (std::size_t axis = 0; axis < 2; ++axis)
+      if (std::abs(end[axis] - domain.low[axis]) < 0.5 * dx || std::abs(end[axis] - domain.high[axis]) < 0.5 * dx) return true;
+    return false;
+  });
+}
 
 // Every cell has a particle, dry or wet. Depths below a billionth of the deepest are what rounding leaves of dry land.
 template <int D>
@@ -179,13 +179,14 @@ void Solver<D>::build_geometry() {
   order_.measure_reach(particles_, h, support_);
   const int n = particles_.size();
   const VecField<double, D> x = vector_field(particles_, "x", "y", Vec<double, D>{});
+  const bool linear = scene_.sisph.correction == Sisph::Correction::krongauz_belytschko;
   geometry_ = measure_geometry<D>(n, kernel_, {order_.rows(), x, h, particles_.integer("kind"), scene_.water.spacing, cell_,
-                                               walls_of<D>(scene_, support_)});
+                                               mirror_walls(), linear});
   if (geometry_.images.count > 0) {  // room for their vectors
     particles_.resize(geometry_.images.slots() + lanes);
     particles_.resize(n);
   }
-  if (scene_.sisph.closure) closure_ = close_areas(geometry_);
+  if (scene_.sisph.closure && scene_.sisph.formulation == Sisph::Formulation::at_rest) closure_ = close_areas(geometry_);
   level_of_bed_ = bed_ ? particles_.real("bed") : Field<double>("sisph.flat_bed", static_cast<std::size_t>(n) + lanes);
   const Field<double> mass = particles_.real("mass"), depth = particles_.real("depth"), omega = geometry_.omega;
   Kokkos::parallel_for("sisph::fill", Range(0, n), KOKKOS_LAMBDA(int i) { mass(i) = omega(i) * depth(i); });
@@ -263,6 +264,16 @@ void Solver<D>::build_openings() {
 template <int D>
 TracedWater<D> Solver<D>::traced() const {
   return {order_.rows(), geometry_.x, water(), g_n2_, scene_.gravity, scene_.water.spacing};
+}
+
+template <int D>
+Swarm<D> Solver<D>::swarm() const {
+  const FieldSet& f = particles_;
+  const Vec<double, D> like;
+  const bool remembers = f.has("u_before");
+  return {order_.rows(), vector_field(f, "x", "y", like), vector_field(f, "u", "v", like),
+          remembers ? vector_field(f, "u_before", "v_before", like) : VecField<double, D>{}, f.real("depth"), f.real("mass"),
+          bed_ ? f.real("bed") : Field<double>(), f.real("h"), f.integer("kind")};
 }
 
 template <int D>

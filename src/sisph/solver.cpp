@@ -13,14 +13,19 @@ Solver<D>::Solver(const Scene& scene)
       support_(std::visit([](const auto& k) { return k.support; }, kernel_)), order_(D, scene.water.spacing) {
   place_particles();
   build_geometry();
-  build_momentum();
-  build_friction();
-  build_openings();
+  if (scene_.sisph.formulation == Sisph::Formulation::moving) {
+    start_moving();
+  } else {
+    build_momentum();
+    build_friction();
+    build_openings();
+  }
   measure_speeds();
 }
 
 template <int D>
 void Solver<D>::step(double t, double dt) {
+  if (moving_) return move_with_water(dt);
   active_->find(water().depth, scene_.sisph.picard);
   if (paths_)
     carry_along_paths(t, dt);
@@ -217,6 +222,7 @@ void Solver<D>::measure_speeds() {
 
 template <int D>
 double Solver<D>::stable_dt() const {
+  if (moving_) return moving_dt();
   constexpr double mass_flux_limit = 0.7;  // |v| dt / dx
   const Sisph& sisph = scene_.sisph;
   const double dx = scene_.water.spacing, limit = sisph.advection > 0 ? sisph.advection : fluxes_ ? mass_flux_limit : 1e300;

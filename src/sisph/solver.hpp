@@ -1,4 +1,5 @@
-// Semi-implicit SPH for the shallow water equations (Bankole 2016, ch. 5-7, corrected): formulation E, particles at rest.
+// Semi-implicit SPH for the shallow water equations (Bankole 2016, ch. 5-7, corrected): formulation E, particles at rest; or L,
+// particles that move with the water (moving.cpp, kernels/sisph/moving.hpp).
 // Gravity waves are implicit, so the celerity does not bound the step. One step:
 //   velocity before the pressure at n+1 (along particle paths, or carried by the mass fluxes), a linear or (with drying)
 //   piecewise linear system for the free surface, fluxes and depths from it, the pressure at n+1; repeated (Picard).
@@ -12,6 +13,7 @@
 #include "kernels/sisph/conservative.hpp"
 #include "kernels/sisph/friction.hpp"
 #include "kernels/sisph/mass_flux.hpp"
+#include "kernels/sisph/moving.hpp"
 #include "kernels/sisph/open.hpp"
 #include "kernels/sisph/rim.hpp"
 #include "kernels/sisph/semi_lagrangian.hpp"
@@ -47,10 +49,16 @@ class Solver : public Method {
   void place_particles();
   void make_fields();
   void fill_fields(const std::vector<Start>& start);
-  void build_geometry();
   void build_momentum();
   void build_friction();
   void build_openings();
+  MirrorWalls<D> mirror_walls() const;
+  void start_moving();
+  void move_with_water(double dt);
+  void settle_order();
+  double moving_dt() const;
+  PathWeights path(double dt) const;
+  Swarm<D> swarm() const;
   std::vector<RimPlace<D>> rim_places() const;
   TracedWater<D> traced() const;
   void meet_boundaries(double t, double dt);
@@ -59,6 +67,9 @@ class Solver : public Method {
   void find_slope(const Field<double>& depth, bool drying);
   void find_push(double theta, bool drying);
   void extend_slope(const Field<double>& depth);
+
+ public:  // device lambdas may not live in private members
+  void build_geometry();
   void slow_down(const VecField<double, D>& v);
   void find_viscous(double dt);
   void add_viscous(const VecField<double, D>& v);
@@ -67,6 +78,8 @@ class Solver : public Method {
   void solve_surface(double dt, bool drying);
   void accept(double dt, bool closed);
   void measure_speeds();
+
+ private:
   Water<D> water() const;
   SortedWater<D> sorted_water() const;
 
@@ -89,6 +102,8 @@ class Solver : public Method {
   std::optional<Rim<D>> rim_;
   std::optional<OpenRim<D>> open_;
   std::optional<Viscosity<D>> viscosity_;
+  std::optional<MovingWater<D>> moving_;  // formulation L; else absent
+  double last_dt_ = 0;                    // s, of the step before: for paths that remember
   Field<double> g_n2_, drag_;  // friction: g n^2 of the ground, dt gamma; empty without
   VecField<double, D> slope_, explicit_, carried_, before_, end_;  // grad eta; velocities, m/s
   VelocityGradient<D> velocity_gradient_;

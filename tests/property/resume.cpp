@@ -165,6 +165,13 @@ TEST_CASE("semi-implicit runs resume to the bit") {
   check_pieces(open, make_method, 7);
 }
 
+TEST_CASE("semi-implicit runs whose particles move resume to the bit") {
+  const std::string paths = GENERATE("theta", "rk3", "leap-frog");
+  const Scene walled = read_scene("cases/sisph_seiche.toml", {"sisph.formulation=moving", "sisph.paths=" + paths, "water.depth=1+0.1*cos(pi*x)",
+                                                              "time.end=0.2", "bed.z=0.1*sin(3*x)"});
+  check_pieces(walled, make_method, 3);
+}
+
 TEST_CASE("a dam break that splits and merges resumes to the bit") {
   const Scene scene = read_scene("cases/dam_break_dry_strip.toml",
                                  {"water.spacing=20", "time.end=24", "split.area=1.5", "split.velocity=linear",

@@ -160,6 +160,7 @@ TEST_CASE("threads: one and two give the same bytes: semi-implicit") {
   check_threads({"cases/sisph_bump.toml", "water.disorder=0.2", "time.end=0.03"});
   check_threads({"cases/thacker.toml", "scene.method=sisph", "water.spacing=150", "time.end=300"});
   check_threads({"cases/sisph_seiche.toml", "time.end=0.1"});
+  check_threads({"cases/sisph_seiche.toml", "sisph.formulation=moving", "water.depth=1+0.1*cos(pi*x)", "time.end=0.1"});
 }
 
 TEST_CASE("threads: one and two give the same bytes: incompressible dam break") {

@@ -1,0 +1,267 @@
+#include "kernels/sisph/moving.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/linear/pair_product.hpp"
+#include "kernels/sisph/moving_loops.hpp"
+
+namespace freshet::sisph {
+namespace {
+
+Field<double> scalar(int n) { return Field<double>("sisph.moving", static_cast<size_t>(n) + lanes); }
+
+SymField<double, 1> matrices(int n, Vec<double, 1>) { return {scalar(n)}; }
+SymField<double, 2> matrices(int n, Vec<double, 2>) { return {scalar(n), scalar(n), scalar(n)}; }
+
+// Room for so many values; those that there are stay.
+void make_longer(VecField<double, 1>& v, int n) {
+  const Field<double> old = v.x, longer = scalar(n);
+  const auto kept = std::make_pair(size_t{0}, old.extent(0));
+  Kokkos::deep_copy(Kokkos::subview(longer, kept), old);
+  v.x = longer;
+}
+void make_longer(VecField<double, 2>& v, int n) {
+  VecField<double, 1> x{v.x}, y{v.y};
+  make_longer(x, n);
+  make_longer(y, n);
+  v = {x.x, y.x};
+}
+
+// The bed's level at a place.
+template <int D>
+KOKKOS_FORCEINLINE_FUNCTION double level_at(const BedSpline<D>& bed, const Vec<double, D>& place) {
+  return bed.sloped_at(place).b;
+}
+
+}  // namespace
+
+template <int D>
+MovingWater<D>::MovingWater(int particles, const AnyKernel<D>& kernel, const MirrorWalls<D>& walls, const MovingOptions& options)
+    : options_(options), shapes_{kernel, {}, options.held_moment, options.linear}, walls_(walls) {
+  for (Field<double>* f : {&inertia_, &rise_, &last_, &change_, &right_, &diagonal_, &inverse_, &zero_, &g_.omega, &g_.moment, &g_.free})
+    *f = scalar(particles);
+  g_.inverse = matrices(particles, Vec<double, D>{});
+  const Field<int> all("sisph.slices", static_cast<size_t>((particles + lanes - 1) / lanes));
+  const auto host = Kokkos::create_mirror_view(all);
+  for (int s = 0; s < all.extent_int(0); ++s) host(s) = s;
+  Kokkos::deep_copy(all, host);
+  g_.slices = {all, all.extent_int(0)};
+  cg_.resize(particles);
+}
+
+// By how much two particles at the edge of each other's support approach in half a step, and a tenth of a spacing.
+template <int D>
+double MovingWater<D>::reach(double dt, double jump) const {
+  const double dx = options_.spacing, wide = options_.support * options_.h / dx;
+  return std::max(1.0, wide) * 0.5 * dt * jump + 0.1 * dx;
+}
+
+// Coefficients for all pairs and vectors for all images.
+template <int D>
+void MovingWater<D>::make_room() {
+  if (g_.area.extent(0) < g_.pairs.j.extent(0)) {
+    g_.n = pairs_.template vector_coefficient<D>("sisph.n");
+    for (Field<double>* f : {&g_.distance, &g_.weight, &g_.area, &a_}) *f = pairs_.coefficient("sisph.pairs");
+  }
+  const int wanted = g_.images.slots(), had = end_.x.extent_int(0) - lanes;
+  if (had >= wanted) return;
+  const int room = had > 0 ? wanted + g_.images.count / 4 : wanted;
+  for (VecField<double, D>* v : {&mixed_, &star_, &end_, &g_.x}) make_longer(*v, room);
+}
+
+// Pairs that may be within each other's support as long as they approach by less than the skin [m].
+template <int D>
+void MovingWater<D>::list_pairs(const Swarm<D>& now, double skin) {
+  const Region region("sisph::list_pairs");
+  const int n = g_.omega.extent_int(0) - lanes;
+  shapes_.h = now.h;
+  skin_ = skin;
+  const PairRequest<D> request{now.rows, now.x, now.h, options_.support + skin / options_.h};
+  g_.images = list_wall_pairs<D>(n, request, walls_, pairs_);
+  g_.pairs = pairs_.view();
+  rows_ = now.rows;
+  listed_ = freshet::sisph::place_images<D>(n, request, walls_, g_.images);
+  make_room();
+}
+
+// The first pass takes the end of the step to be as its start.
+template <int D>
+void MovingWater<D>::start(const Swarm<D>& now) {
+  const Swarm<D> at_n = now;
+  const VecField<double, D> end = end_;
+  const Field<double> last = last_, free = g_.free;
+  Kokkos::parallel_for("sisph::start_step", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) {
+        put(end, i, at(at_n.v, i));
+        last(i) = at_n.depth(i);
+        free(i) = at_n.kind(i) > 0 ? 0.0 : 1.0;
+      });
+}
+
+// x at the middle of the step; H_m and what follows from it; the bed at the end of the path.
+template <int D>
+void MovingWater<D>::place(const Swarm<D>& now, const BedSpline<D>* bed, const PathWeights& path, double dt) {
+  const Swarm<D> at_n = now;
+  const PathWeights w = path;
+  const Geometry<D> g = g_;
+  const VecField<double, D> end = end_;
+  const Field<double> last = last_, inertia = inertia_, rise = rise_;
+  Kokkos::parallel_for("sisph::place_midway", Range(0, g.pairs.particles), KOKKOS_LAMBDA(int i) {
+        const double mid = 0.5 * (at_n.depth(i) + last(i));
+        put(g.x, i, at(at_n.x, i) + (0.5 * dt) * (w.half_start * at(at_n.v, i) + w.half_end * at(end, i)));
+        g.omega(i) = at_n.mass(i) / mid;
+        inertia(i) = at_n.mass(i) / (mid * mid);
+      });
+  place_images(now);
+  if (!bed) return;
+  const BedSpline<D> ground = *bed;
+  const bool remembers = at_n.before.x.extent(0) > 0;
+  Kokkos::parallel_for("sisph::rise_of_bed", Range(0, g.pairs.particles), KOKKOS_LAMBDA(int i) {
+        Vec<double, D> to = at(at_n.x, i) + dt * (w.start * at(at_n.v, i) + w.end * at(end, i));
+        if (remembers) to += (dt * w.before) * at(at_n.before, i);
+        rise(i) = g.free(i) * (level_at(ground, to) - at_n.bed(i));
+      });
+}
+
+// Images move as their particles do, reflected: pairs keep |x_i - x_j'| = |x_j - x_i'|.
+template <int D>
+void MovingWater<D>::place_images(const Swarm<D>& now) {
+  if (g_.images.count == 0) return;
+  const Images<D> images = g_.images;
+  const VecField<double, D> from = listed_, x = now.x, to = g_.x;
+  Kokkos::parallel_for("sisph::move_images", Range(0, images.count), KOKKOS_LAMBDA(int k) {
+        const int slot = images.first + k, j = images.source(k);
+        put(to, slot, at(from, slot) + images.of(images.reflection, k) * (at(to, j) - at(x, j)));
+      });
+}
+
+template <int D>
+void MovingWater<D>::predict(const Swarm<D>& now, double dt) {
+  Kokkos::parallel_for("sisph::predict", Range(0, g_.slices.count),
+                       Predict<D>{g_, now.depth, now.bed.extent(0) > 0 ? now.bed : zero_, now.v, star_, mixed_,
+                                  options_.gravity * dt, options_.theta});
+  g_.images.fill(mixed_);
+}
+
+// The mesh of the system at hand, over the places at n. It is made when first needed, once.
+template <int D>
+void MovingWater<D>::lay_mesh(double stiffness) {
+  if (!mesh_) mesh_.emplace();
+  if (mesh_mass_.extent(0) == 0) mesh_mass_ = scalar(g_.pairs.particles), mesh_depth_ = scalar(g_.pairs.particles);
+  if (!laid_) mesh_->lay(rows_, listed_);
+  laid_ = true;
+  const Geometry<D> g = g_;
+  const Field<double> inertia = inertia_, mass = mesh_mass_, depth = mesh_depth_;
+  Kokkos::parallel_for("sisph::mesh_rows", Range(0, g.pairs.particles), KOKKOS_LAMBDA(int i) {
+        mass(i) = g.free(i) * inertia(i);
+        depth(i) = g.omega(i) / inertia(i);
+      });
+  mesh_->set(mesh_mass_, mesh_depth_, stiffness);
+}
+
+template <int D>
+linear::CgReport MovingWater<D>::solve_linear(const linear::CgOptions& options, double stiffness) {
+  const auto product = [&](const Field<double>& x, const Field<double>& y) {
+    return sums_.template sum<1, 64>("sisph::product", g_.slices.count,
+                                     linear::PairProduct<SliceList>{g_.pairs, g_.slices, a_, diagonal_, g_.free, x, y})[0];
+  };
+  if (!mesh_on_) return cg_.solve(product, linear::Jacobi{inverse_}, right_, change_, options);
+  lay_mesh(stiffness);
+  return cg_.solve(product, linear::JacobiPlus<linear::ParticleMesh<D>>{inverse_, *mesh_}, right_, change_, options);
+}
+
+template <int D>
+void MovingWater<D>::solve_increment(double dt, bool again, MovingReport& report) {
+  constexpr double round_off = 1e-14;  // of omega: water at rest needs no iteration
+  const double stiffness = options_.gravity * options_.theta * options_.theta * dt * dt;
+  const auto norms = sums_.template sum<2, 64>("sisph::increment", g_.slices.count,
+                                               Increment<D>{g_, mixed_, inertia_, rise_, a_, right_, diagonal_, inverse_, stiffness, dt});
+  linear::CgOptions cg;
+  cg.tolerance = options_.cg_tolerance;
+  cg.max_iterations = options_.cg_most;
+  cg.scale = std::max(std::sqrt(norms[0]), round_off / cg.tolerance * std::sqrt(norms[1]));
+  cg.from_zero = !again;
+  const linear::CgReport solved = solve_linear(cg, stiffness);
+  if (solved.iterations > options_.mesh_from || (mesh_on_ && !again)) set_meshed(solved.iterations > options_.mesh_until);
+  ++report.solves;
+  report.iterations += solved.iterations;
+  report.unsettled += solved.converged() ? 0 : 1;
+}
+
+template <int D>
+void MovingWater<D>::correct(const Swarm<D>& now, double dt) {
+  Kokkos::parallel_for("sisph::correct", Range(0, g_.slices.count),
+                       Correct<D>{g_, change_, now.depth, rise_, last_, star_, end_, options_.gravity * options_.theta * dt});
+}
+
+template <int D>
+double MovingWater<D>::find_jump(const VecField<double, D>& v) {
+  g_.images.fill(v);
+  double most = 0;
+  Kokkos::parallel_reduce("sisph::jump", Range(0, g_.slices.count), Jump<D>{g_, v, options_.spacing}, Kokkos::Max<double>(most));
+  return std::sqrt(most);
+}
+
+template <int D>
+void MovingWater<D>::measure_jump(const Swarm<D>& now) {
+  list_pairs(now, 0);
+  start(now);
+  place(now, nullptr, euler_path(), 0);
+  jump_ = find_jump(end_);
+}
+
+// The state at n+1; returns the least depth.
+template <int D>
+double MovingWater<D>::arrive(const Swarm<D>& now, const BedSpline<D>* bed, const PathWeights& path, double dt) {
+  const Swarm<D> at_n = now;
+  const PathWeights w = path;
+  const VecField<double, D> end = end_;
+  const Field<double> last = last_, free = g_.free;
+  const bool remembers = at_n.before.x.extent(0) > 0;
+  double least = 0;
+  Kokkos::parallel_reduce("sisph::arrive", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i, double& m) {
+        const Vec<double, D> v = at(at_n.v, i);
+        Vec<double, D> to = at(at_n.x, i) + dt * (w.start * v + w.end * at(end, i));
+        if (remembers) {
+          to += (dt * w.before) * at(at_n.before, i);
+          put(at_n.before, i, v);
+        }
+        put(at_n.x, i, to);
+        if (free(i) > 0.5) {
+          put(at_n.v, i, at(end, i));
+          at_n.depth(i) = last(i);
+        }
+        m = smaller(m, at_n.depth(i));
+      }, Kokkos::Min<double>(least));
+  if (!bed) return least;
+  const BedSpline<D> ground = *bed;
+  Kokkos::parallel_for("sisph::find_bed", Range(0, g_.pairs.particles),
+                       KOKKOS_LAMBDA(int i) { at_n.bed(i) = level_at(ground, at(at_n.x, i)); });
+  return least;
+}
+
+template <int D>
+MovingReport MovingWater<D>::step(const Swarm<D>& now, const BedSpline<D>* bed, const PathWeights& path, double dt) {
+  MovingReport report;
+  const double at_start = jump_;
+  list_pairs(now, reach(dt, at_start));
+  laid_ = false;
+  start(now);
+  for (int pass = 0; pass < options_.picard; ++pass) {
+    if (pass > 0 && reach(dt, std::max(at_start, jump_)) > skin_ + 0.1 * options_.spacing)
+      list_pairs(now, reach(dt, 1.2 * std::max(at_start, jump_)));
+    place(now, bed, path, dt);
+    measure_again(g_, shapes_);
+    predict(now, dt);
+    solve_increment(dt, pass > 0, report);
+    correct(now, dt);
+    jump_ = find_jump(end_);
+  }
+  report.least_depth = arrive(now, bed, path, dt);
+  return report;
+}
+
+template class MovingWater<1>;
+template class MovingWater<2>;
+
+}  // namespace freshet::sisph
