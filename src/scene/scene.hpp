@@ -206,6 +206,7 @@ struct Fpm {
   double support = 3.2;    // h0 / dx
   double hole = 0.8;       // x dx: an empty circle larger than this gets a point
   Function grading;        // x dx, the spacing by place: 1 to 4; absent = 1 everywhere
+  bool by_neighbours = false;  // each point's support from the number of its neighbours, `support` being that of a lattice
   PressureScheme scheme = PressureScheme::filtered;
   bool implicit_viscosity = false;  // it does not limit the step then
   bool slip = true;        // walls; false: they also hold the tangential velocity
