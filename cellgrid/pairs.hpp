@@ -160,35 +160,16 @@ class Pairs {
   VecField<double, D> vector_coefficient(const std::string& label) const;
 
  private:
-  template <class Visit>
-  void measure(const Visit& visit);
-  template <class Visit>
-  void fill(const Visit& visit);
-
   PairView view_;
   int entries_ = 0;
 };
 
+// The first entry of each slice, in view.start; the longest row of a slice is its number of entries. Returns that of all slices. Free, as
+// the next: nvcc takes no launch in a private member.
 template <class Visit>
-void Pairs::list(int particles, const Visit& visit, bool images) {
-  view_.particles = particles;
-  measure(visit);
-  const size_t held = view_.j.extent(0), wanted = PairView::at(entries_), room = held > 0 ? wanted + wanted / 4 : wanted;
-  const auto indices = [](const char* label, size_t n) { return Field<int>(Kokkos::ViewAllocateWithoutInitializing(label), n); };
-  const bool fits = wanted <= held && held > 0, had_images = view_.slot.data() != view_.j.data();
-  if (!fits) view_.j = indices("cellgrid.pair_j", room);
-  if (!images) view_.slot = view_.j;
-  else if (!fits || !had_images) view_.slot = indices("cellgrid.pair_slot", view_.j.extent(0));
-  fill(visit);
-}
-
-// The longest row of a slice is its number of entries.
-template <class Visit>
-void Pairs::measure(const Visit& visit) {
-  const int slices = view_.slices();
-  const PairView view = view_;
-  if (view_.start.extent_int(0) <= slices) view_.start = Field<int>("cellgrid.pair_start", static_cast<size_t>(slices + 1));
-  const Field<int> start = view_.start;
+int place_slices(const PairView& view, const Visit& visit) {
+  const int slices = view.slices();
+  const Field<int> start = view.start;
   Kokkos::parallel_for("cellgrid::count_pairs", Range(0, slices), KOKKOS_LAMBDA(int s) {
         const Lanes me = view(s);
         int longest = 0;
@@ -204,12 +185,13 @@ void Pairs::measure(const Visit& visit) {
         if (last) start(s) = sum;
         sum += here;
       });
-  Kokkos::deep_copy(entries_, Kokkos::subview(start, slices));
+  int entries = 0;
+  Kokkos::deep_copy(entries, Kokkos::subview(start, slices));
+  return entries;
 }
 
 template <class Visit>
-void Pairs::fill(const Visit& visit) {
-  const PairView view = view_;
+void fill_pairs(const PairView& view, const Visit& visit) {
   Kokkos::parallel_for("cellgrid::fill_pairs", Range(0, view.slices()), KOKKOS_LAMBDA(int s) {
         const Lanes me = view(s);
         for (int l = 0; l < lanes; ++l) {
@@ -223,6 +205,21 @@ void Pairs::fill(const Visit& visit) {
           while (e < view.start(s + 1)) put(i, i);
         }
       });
+}
+
+template <class Visit>
+void Pairs::list(int particles, const Visit& visit, bool images) {
+  view_.particles = particles;
+  const int slices = view_.slices();
+  if (view_.start.extent_int(0) <= slices) view_.start = Field<int>("cellgrid.pair_start", static_cast<size_t>(slices + 1));
+  entries_ = place_slices(view_, visit);
+  const size_t held = view_.j.extent(0), wanted = PairView::at(entries_), room = held > 0 ? wanted + wanted / 4 : wanted;
+  const auto indices = [](const char* label, size_t n) { return Field<int>(Kokkos::ViewAllocateWithoutInitializing(label), n); };
+  const bool fits = wanted <= held && held > 0, had_images = view_.slot.data() != view_.j.data();
+  if (!fits) view_.j = indices("cellgrid.pair_j", room);
+  if (!images) view_.slot = view_.j;
+  else if (!fits || !had_images) view_.slot = indices("cellgrid.pair_slot", view_.j.extent(0));
+  fill_pairs(view_, visit);
 }
 
 }  // namespace freshet

@@ -36,8 +36,8 @@ struct AssembleRows {
     Moments<Lane, D> moments;
     around.for_each(c, [&](int, const Terms<Lane, D>& m, const Lane& w) { moments.add(w, m); });
     const Terms<Lane, D> r_p = laplace_row<Lane, D>(), r_b = flux_row(has_flux * me.load(places.normal));
-    moments.add(equation_weight, r_p);
-    moments.add(equation_weight, r_b);
+    moments.add(Lane(equation_weight), r_p);
+    moments.add(Lane(equation_weight), r_b);
     Terms<Lane, D> beta = value_factors(moments);
     unroll<terms<D>>([&](auto k) { beta[k] *= free; });
     me.store(per_source, equation_weight * h * h * dot(r_p, beta));

@@ -49,8 +49,8 @@ struct AssembleViscousRows {
     const Vec<Lane, 2> n{select(on_a_wall, wall.x, per_length * inwards.x), select(on_a_wall, wall.y, per_length * inwards.y)};
     const Lane per_h = 1.0 / me.load(stencils.around.h), spread = k * per_h * per_h, scale = 1.0 / (1.0 + spread);
     const Terms<Lane, 2> r_p{{scale, Lane(0.0), Lane(0.0), -spread * scale, Lane(0.0), -spread * scale}};
-    moments.add(equation_weight, r_p);
-    moments.add(equation_weight, {{Lane(0.0), n.x, n.y, Lane(0.0), Lane(0.0), Lane(0.0)}});
+    moments.add(Lane(equation_weight), r_p);
+    moments.add(Lane(equation_weight), {{Lane(0.0), n.x, n.y, Lane(0.0), Lane(0.0), Lane(0.0)}});
     const Terms<Lane, 2> beta = value_factors(moments);
     return {beta, equation_weight * scale * dot(r_p, beta)};
   }

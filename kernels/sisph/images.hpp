@@ -29,16 +29,22 @@ struct Images {
     if (count == 0) return;
     const Images images = *this;
     Kokkos::parallel_for("sisph::reflect_gradient", Range(0, count), KOKKOS_LAMBDA(int k) {
-          const int to = images.first + k, j = images.source(k);
-          const Sym<double, D> r = of(images.reflection, k);
-          if constexpr (D == 1) {
-            put(of_u, to, at(of_u, j));
-          } else {
-            const Vec<double, D> u = r * at(of_u, j), v = r * at(of_v, j);
-            put(of_u, to, r.xx * u + r.xy * v);
-            put(of_v, to, r.xy * u + r.yy * v);
-          }
+          reflect(of(images.reflection, k), of_u, of_v, {images.source(k), images.first + k});
         });
+  }
+
+  // Overloads: nvcc's lambdas capture nothing inside if constexpr.
+  struct Slots {
+    int from, to;
+  };
+  KOKKOS_FORCEINLINE_FUNCTION static void reflect(const Sym<double, 1>&, const VecField<double, 1>& of_u, const VecField<double, 1>&, Slots s) {
+    put(of_u, s.to, at(of_u, s.from));
+  }
+  KOKKOS_FORCEINLINE_FUNCTION static void reflect(const Sym<double, 2>& r, const VecField<double, 2>& of_u, const VecField<double, 2>& of_v,
+                                                  Slots s) {
+    const Vec<double, 2> u = r * at(of_u, s.from), v = r * at(of_v, s.from);
+    put(of_u, s.to, r.xx * u + r.xy * v);
+    put(of_v, s.to, r.xy * u + r.yy * v);
   }
 };
 

@@ -27,21 +27,25 @@ struct Flow {
   }
 };
 
-}  // namespace
-
 template <int D>
-Rim<D>::Rim(const Geometry<D>& g) : g_(g), list_{Field<int>("sisph.rim", static_cast<size_t>(g.slices.count) + 1), 0} {
-  const SliceList rim = list_;
-  const Geometry<D> geometry = g;
-  Kokkos::parallel_scan("sisph::list_rim", Range(0, g.slices.count), KOKKOS_LAMBDA(int k, int& count, bool last) {
+SliceList slices_with_held_neighbours(const Geometry<D>& geometry) {
+  SliceList rim{Field<int>("sisph.rim", static_cast<size_t>(geometry.slices.count) + 1), 0};
+  const Field<int> list = rim.list;
+  Kokkos::parallel_scan("sisph::list_rim", Range(0, geometry.slices.count), KOKKOS_LAMBDA(int k, int& count, bool last) {
         const int s = geometry.slices(k);
         Lane held(0.0);
         geometry.pairs.for_each(s, [&](int, PairIndex j) { held = larger(held, 1.0 - gather(geometry.free.data(), j)); });
         if (largest(held) < 0.5) return;
-        if (last) rim.list(count) = s;
+        if (last) list(count) = s;
         ++count;
-      }, list_.count);
+      }, rim.count);
+  return rim;
 }
+
+}  // namespace
+
+template <int D>
+Rim<D>::Rim(const Geometry<D>& g) : g_(g), list_(slices_with_held_neighbours(g)) {}
 
 template <int D>
 RimFlow Rim<D>::flow(const FreeSurface<D>& surface, double dt, bool closed) {

@@ -72,6 +72,11 @@ class FreeSurface {
   // before: velocity before the pressure at n+1. drying: some particle may be dry.
   SurfaceReport solve(const SliceList& active, const Water<D>& water, const VecField<double, D>& before, double dt, bool drying);
 
+  // Parts of solve(); public since device lambdas may not live in private members.
+  void level_rows(const SliceList& active, const Water<D>& water);
+  void set_mesh(const SliceList& active, const Water<D>& water, double stiffness);
+  void set_diagonal(const SliceList& active, const Water<D>& water, bool all_wet);
+
  private:
   struct Norms {
     double residual, right;
@@ -79,10 +84,7 @@ class FreeSurface {
   template <bool drying, bool dragged>
   Norms find_coefficients(const SliceList& active, const Water<D>& water, const VecField<double, D>& before, double dt);
   double find_residual(const SliceList& active, const Water<D>& water);
-  void level_rows(const SliceList& active, const Water<D>& water);
   int solve_linear(const SliceList& active, const Water<D>& water, const linear::CgOptions& options, double stiffness);
-  void set_mesh(const SliceList& active, const Water<D>& water, double stiffness);
-  void set_diagonal(const SliceList& active, const Water<D>& water, bool all_wet);
 
   Geometry<D> g_;
   Rows rows_;

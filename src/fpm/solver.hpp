@@ -32,9 +32,7 @@ class Solver : public Method {
 
  private:
   void make_fields();
-  void place();
   Flow bind() const;
-  Field<double> cell_areas() const;  // m2, of each point
 
   Scene scene_;
   FieldSet points_;
@@ -55,6 +53,8 @@ class Solver : public Method {
   int next_id_ = 0;
 
  public:  // device lambdas may not live in private members
+  void place();
+  Field<double> cell_areas() const;  // m2, of each point
   void seat_on_walls();
 };
 

@@ -19,6 +19,7 @@ usage:
   freshet list                                   the cases that come with the program
   freshet points DIR [--step K] [--csv FILE]     particles of one output as x,y,z,depth,v_0,v_1 (K: the last)
   freshet points DIR --list                      number and time of each output
+  freshet difference DIR DIR                     two runs of one scene, particle by particle, from their state.h5
   freshet --version | --help
 
 SCENE is a scene file or the name of a case. key=value overrides a value of the scene; keys are dotted paths.
@@ -91,7 +92,8 @@ const std::vector<Command>& commands() {
       {"check", {{"--threads", true}}, check_command},
       {"profile", {{"--steps", true}, {"--threads", true}, {"--json", false}}, profile_command},
       {"list", {}, list_command},
-      {"points", {{"--step", true}, {"--csv", true}, {"--list", false}}, points_command}};
+      {"points", {{"--step", true}, {"--csv", true}, {"--list", false}}, points_command},
+      {"difference", {}, difference_command}};
   return all;
 }
 

@@ -27,6 +27,8 @@ int check_command(const Arguments& arguments, const Parts& parts);
 int list_command(const Arguments& arguments, const Parts& parts);
 int points_command(const Arguments& arguments, const Parts& parts);
 void print_version();
+// difference.cpp
+int difference_command(const Arguments& arguments, const Parts& parts);
 
 struct Case {
   std::string name;  // file name without .toml

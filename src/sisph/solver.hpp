@@ -48,7 +48,6 @@ class Solver : public Method {
   void place_particles();
   void make_fields();
   void fill_fields(const std::vector<Start>& start);
-  void build_geometry();
   void build_momentum();
   void build_friction();
   void build_openings();
@@ -67,12 +66,17 @@ class Solver : public Method {
   void find_slope(const Field<double>& depth, bool drying);
   void find_push(double theta, bool drying);
   void extend_slope(const Field<double>& depth);
+
+ public:  // device lambdas may not live in private members
+  void build_geometry();
   void slow_down(const VecField<double, D>& v);
   void push(const VecField<double, D>& from, double impulse, const VecField<double, D>& to);
   void blend(double dt);
   void solve_surface(double dt, bool drying);
   void accept(double dt, bool closed);
   void measure_speeds();
+
+ private:
   Water<D> water() const;
   SortedWater<D> sorted_water() const;
 

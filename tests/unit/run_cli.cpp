@@ -115,6 +115,40 @@ TEST_CASE("profile prints a table or JSON and leaves no files") {
   CHECK(freshet_with({"profile"}).code == 2);
 }
 
+TEST_CASE("difference finds the one particle that moved") {
+  const test::Scratch scratch;
+  const std::string scene = scene_in(scratch);
+  const auto run = [&](const Parts& parts, const std::string& name) { return freshet_with(parts, {"run", scene, "--out", scratch / name}).code; };
+  REQUIRE(run(fake_parts(), "a") == 0);
+  REQUIRE(run(fake_parts(), "b") == 0);
+  long last = 0;
+  REQUIRE(run(fake_parts([&](test::FakeMethod& method) { method.on_step = [&](long step) { last = step; }; }), "b2") == 0);
+  const auto moved = [&](test::FakeMethod& method) {
+    method.on_step = [&method, last](long step) {
+      const Field<int> id = method.fields().integer("id");
+      const Field<double> y = method.fields().real("y");
+      for (int i = 0; step == last && i < method.fields().size(); ++i) y(i) += id(i) == 7 ? 0.125 : 0;
+    };
+  };
+  REQUIRE(run(fake_parts(moved), "c") == 0);
+  const Result same = freshet_with({"difference", scratch / "a", scratch / "b"});
+  CHECK(same.code == 0);
+  CHECK_THAT(same.out, Contains("\nmass "));
+  const auto lines = [](const std::string& text, const std::string& end) {
+    int n = 0;
+    for (auto at = text.find(end); at != std::string::npos; at = text.find(end, at + 1)) ++n;
+    return n;
+  };
+  CHECK(lines(same.out, "\n") == 2 + lines(same.out, " 0            0\n"));  // no field differs anywhere
+  const Result other = freshet_with({"difference", scratch / "a", scratch / "c"});
+  CHECK_THAT(other.out, Contains("0.125") && Contains(" 7\n"));
+  CHECK(lines(other.out, "\n") == 3 + lines(other.out, " 0            0\n"));
+  CHECK(freshet_with({"difference", scratch / "a"}).code == 2);
+  const Result none = freshet_with({"difference", scratch / "a", scratch / "nowhere"});
+  CHECK(none.code == 2);
+  CHECK_THAT(none.err, Contains("nowhere/state.h5 is not there"));
+}
+
 TEST_CASE("with --quiet a run prints nothing") {
   const test::Scratch scratch;
   const Result run = freshet_with({"run", scene_in(scratch), "--quiet", "--out=" + (scratch / "results")});
