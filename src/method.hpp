@@ -82,6 +82,9 @@ class Method {
   virtual double highest_wet_bed(const Point&, double, double) const { return -1e300; }
   virtual std::vector<std::string> features() const = 0;  // what this scene switched on, for `check` and the log
 
+  // What the method did beyond its recipe since t = 0, for the end of the log and the summary's warnings.
+  virtual std::vector<std::string> notes() const { return {}; }
+
   virtual ScalarState scalars() const = 0;                // with the saved fields (is_saved):
   virtual void restore(const ScalarState& scalars) = 0;   // the whole state. Fields are filled before restore() is called.
 };

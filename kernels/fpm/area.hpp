@@ -1,4 +1,4 @@
-// The water's area, point by point: each corner of a point's cell within `radius` is the centre of a triangle of points that belongs to
+// The water's area, point by point: each corner of a point's cell without air is the centre of a triangle of points that belongs to
 // the water, of which the point owns the part towards itself. The parts of all points make up those triangles, walls included, also
 // where four points share a circle.
 #pragma once
@@ -14,12 +14,12 @@ KOKKOS_INLINE_FUNCTION Vec<double, 2> middle_of(const PointCell& c, const Cloud&
 }
 
 // m2
-KOKKOS_INLINE_FUNCTION double wet_area(const PointCell& c, const Cloud& cloud, int i, double radius) {
+KOKKOS_INLINE_FUNCTION double wet_area(const PointCell& c, const Cloud& cloud, int i, const Radii& radii) {
   const Vec<double, 2> p = at(cloud.near.x, i);
   double twice = 0;
   for (int k = 0; k < c.cell.size; ++k) {
     const int from = c.cell.edge[c.cell.before(k)], to = c.cell.edge[k];
-    if (from == Cell::open || to == Cell::open || c.cell.distance2(k) >= radius * radius) continue;
+    if (from == Cell::open || to == Cell::open || is_air(c, cloud, i, k, radii)) continue;
     const Vec<double, 2> a = middle_of(c, cloud, p, from), b = middle_of(c, cloud, p, to);
     twice += a.x * c.cell.y[k] - a.y * c.cell.x[k] + c.cell.x[k] * b.y - c.cell.y[k] * b.x;
   }

@@ -6,6 +6,7 @@
 namespace freshet::fpm {
 namespace {
 
+constexpr double beyond = 0.5;  // x range: by how much values in a hole may exceed those around; elsewhere they do not
 constexpr double lonely = 1.5;  // x spacing: a surface point on a wall with no fluid point nearer than this is given up
 
 template <class View>
@@ -74,11 +75,12 @@ void Points::make_fields(FieldSet& points) {
   points.integer("kind", "1", Carry::state);
   points.integer("side", "1", Carry::state);
   points.integer("surface", "1", Carry::state);
+  for (const char* name : {"open_x", "open_y"}) points.real(name, "1", Carry::state);
 }
 
 Cloud Points::cloud(const FieldSet& points, const RowOrder& order) const {
   return {{order.rows(), {points.real("x"), points.real("y")}, period_}, points.integer("id"), points.integer("kind"), tank_.view(), rule_.spacing,
-          points.has("dx") ? points.real("dx") : Field<double>()};
+          points.has("dx") ? points.real("dx") : Field<double>(), {points.real("open_x"), points.real("open_y")}};
 }
 
 int Points::hold_to_walls(FieldSet& points) {
@@ -130,11 +132,11 @@ PointCount Points::decide(const Cloud& cloud, const Field<int>& surface, const F
 int Points::list_places(const Cloud& cloud, const Field<int>& side, int n, int merged) {
   const Choice choice{cloud, voronoi_.missing(), fate_, rule_.apart, 1.5 * rule_.voronoi.surface};
   reserve(owner_, "fpm.owner", merged + n);
-  for (auto* view : {&where_.x, &where_.y, &place_h_}) reserve(*view, "fpm.where", merged + n);
+  for (auto* view : {&where_.x, &where_.y, &place_h_, &place_slack_}) reserve(*view, "fpm.where", merged + n);
   for (auto* view : {&place_kind_, &place_side_}) reserve(*view, "fpm.place", merged + n);
   const Field<int> owner = owner_, fate = fate_, partner = partner_, place_kind = place_kind_, place_side = place_side_;
   const VecField<double, 2> where = where_, x = cloud.near.x;
-  const Field<double> place_h = place_h_;
+  const Field<double> place_h = place_h_, slack = place_slack_;
   const double support = rule_.support / rule_.spacing;
   const Period period = period_;
   Kokkos::parallel_scan("fpm::merged_places", Range(0, n), KOKKOS_LAMBDA(int i, int& k, bool last) {
@@ -144,6 +146,7 @@ int Points::list_places(const Cloud& cloud, const Field<int>& side, int n, int m
           put(where, k, period.wrap(at(x, i) + 0.5 * period.shortest(at(x, partner(i)) - at(x, i))));
           place_kind(k) = cloud.kind(i), place_side(k) = side(i);
           place_h(k) = support * cloud.spacing_at(i);
+          slack(k) = 0;
         }
         ++k;
       });
@@ -158,6 +161,7 @@ int Points::list_places(const Cloud& cloud, const Field<int>& side, int n, int m
           place_kind(merged + k) = m.kind == Missing::at_wall ? on_wall : m.kind == Missing::at_corner ? in_corner : in_fluid;
           place_side(merged + k) = m.side;
           place_h(merged + k) = support * cloud.spacing_at(i);
+          slack(merged + k) = m.kind == Missing::in_bulk ? beyond : 0.0;
         }
         ++k;
       }, count);
@@ -175,7 +179,7 @@ void Points::fill_places(FieldSet& points, int merged, int count) {
   const Field<double> value = value_;
   for (const std::string& name : names) {
     const Field<double> field = points.real(name);
-    transfer_.apply(field, value);
+    transfer_.apply(field, value, place_slack_);
     Kokkos::parallel_for("fpm::fill", Range(0, places),
         KOKKOS_LAMBDA(int k) { field(k < merged ? owner(k) : n + k - merged) = value(k); });
   }
@@ -183,7 +187,8 @@ void Points::fill_places(FieldSet& points, int merged, int count) {
 
 void Points::settle_places(FieldSet& points, int n, int merged, int& next_id) {
   const int places = merged + points.size() - n, first_id = next_id;
-  const VecField<double, 2> x{points.real("x"), points.real("y")}, where = where_;
+  const VecField<double, 2> x{points.real("x"), points.real("y")}, where = where_, open{points.real("open_x"), points.real("open_y")};
+  const Field<double> slack = place_slack_;
   const Field<int> kind = points.integer("kind"), side = points.integer("side"), id = points.integer("id");
   const Field<int> owner = owner_, fate = fate_, place_kind = place_kind_, place_side = place_side_;
   Kokkos::parallel_for("fpm::drop", Range(0, n), KOKKOS_LAMBDA(int i) {
@@ -193,7 +198,9 @@ void Points::settle_places(FieldSet& points, int n, int merged, int& next_id) {
         const int i = k < merged ? owner(k) : n + k - merged;
         put(x, i, at(where, k));
         kind(i) = place_kind(k), side(i) = place_side(k);
-        if (k >= merged) id(i) = first_id + k - merged;
+        if (k < merged) return;
+        id(i) = first_id + k - merged;
+        if (slack(k) > 0 || kind(i) != in_fluid) put(open, i, {});  // those on surface edges have their owner's
       });
   next_id += places - merged;
 }

@@ -38,7 +38,8 @@ struct PointReport {
   PointCount step;
 };
 
-// Fields of the set: x, y [m], id, dx [m] where the spacing varies, and those made here: kind (PointKind), side (of the tank, -1 in the fluid), surface (0, 1).
+// Fields of the set: x, y [m], id, dx [m] where the spacing varies, and those made here: kind (PointKind), side (of the tank,
+// -1 in the fluid), surface (0, 1), open_x, open_y (Cloud::open).
 class Points {
  public:
   Points(const PointRule& rule, const Tank& tank, const Period& period, PointFields carried);
@@ -74,7 +75,7 @@ class Points {
   Field<int> owner_;           // the point that each place copies
   VecField<double, 2> where_;                  // m, places: of merged pairs, then of new points
   Field<int> place_kind_, place_side_;
-  Field<double> place_h_;                      // m
+  Field<double> place_h_, place_slack_;        // m; of Transfer
   Field<double> value_;
 };
 

@@ -1,5 +1,7 @@
 #include "kernels/fpm/projection.hpp"
 
+#include "kernels/fpm/spray.hpp"
+
 namespace freshet::fpm {
 namespace {
 
@@ -86,6 +88,8 @@ ProjectionReport Projection::advance(const Neighbourhood<2>& around, const Rows&
     report.poisson = poisson_.solve({flow.source, flow.flux, flow.value}, flow.phi, options);
   }
   correct(flow, time);
+  report.limited = limit_spray(around, flow, rule_.force, time.tau);
+  settle(flow);
   if (rule_.scheme == Scheme::filtered) smooth_edges(flow);
   return report;
 }
@@ -110,7 +114,7 @@ void Projection::guess_pressure(const Flow& flow) {
         if (scheme == Scheme::incremental) flow.q(i) = flow.p(i);
         if (scheme == Scheme::plain || scheme == Scheme::projection || flow.row(i) == row_value) flow.q(i) = 0;
         flow.value(i) = -flow.q(i);
-        flow.phi(i) = 0;
+        if (scheme != Scheme::filtered) flow.phi(i) = 0;
       });
 }
 
@@ -140,7 +144,7 @@ void Projection::find_sources(const Flow& flow, const Backward& time) {
   const double factor = rule_.density / time.tau;
   Kokkos::parallel_for("fpm::sources", Range(0, view.around.clusters.size()), KOKKOS_LAMBDA(int c) {
         const Lanes me = view.around.clusters(c);
-        me.store(flow.source, factor * view.divergence(c, flow.v_star));
+        me.store(flow.source, factor * (view.divergence(c, flow.v_star) - Lane(flow.expansion)));
         me.store(flow.flux, factor * dot(me.load(flow.normal), me.load(flow.v_star)));
       });
 }
@@ -148,11 +152,14 @@ void Projection::find_sources(const Flow& flow, const Backward& time) {
 void Projection::correct(const Flow& flow, const Backward& time) {
   const StencilView<2> view = stencils_.view();
   const double factor = time.tau / rule_.density;
-  const bool slip = rule_.slip;
   Kokkos::parallel_for("fpm::correct", Range(0, view.around.clusters.size()), KOKKOS_LAMBDA(int c) {
         const Lanes me = view.around.clusters(c);
         me.store(flow.v_star, me.load(flow.v_star) - Lane(factor) * view.gradient(c, flow.phi));
       });
+}
+
+void Projection::settle(const Flow& flow) {
+  const bool slip = rule_.slip;
   Kokkos::parallel_for("fpm::new_state", Range(0, flow.points), KOKKOS_LAMBDA(int i) {
         put(flow.v_old, i, at(flow.v, i));
         put(flow.v, i, held(flow, i, at(flow.v_star, i), slip));

@@ -2,7 +2,7 @@
 // pressure by projection. With r = dt / dt before (0 in the first step), c0 = (1 + r)^2 / (1 + 2 r), c1 = -r^2 / (1 + 2 r),
 // tau = dt (1 + r) / (1 + 2 r):
 //   q = fitted p, 0 on the surface;  v* = c0 v + c1 v_old + tau (-grad q / rho + nu lap v + f)
-//   lap phi = rho div v* / tau;  walls: n . grad phi = rho n . v* / tau;  surface: phi = -q
+//   lap phi = rho (div v* - expansion) / tau;  walls: n . grad phi = rho n . v* / tau;  surface: phi = -q
 //   v = v* - tau grad phi / rho, at walls held;  p = q + phi;  filtered: v next to walls and surface towards its fit
 // Viscosity taken implicitly: v* = ... + tau nu lap v* (viscosity.hpp). The term - rho nu div v* that (5.8) has in p then is left out: with it
 // still water is not stable (e-fold in 0.15 s at nu = 1 m2/s).
@@ -32,12 +32,14 @@ struct FlowRule {
 struct Flow {
   VecField<double, 2> x, v, v_old;  // m, m/s
   Field<double> p;                  // Pa
+  Field<double> phi;                // Pa, its last change: the first guess of the next
   Field<int> kind, side, surface;   // PointKind; of the tank; 1 on the free surface
   // ----
   VecField<double, 2> v_star, normal;
-  Field<double> q, phi, source, flux, value;
+  Field<double> q, source, flux, value;
   Field<int> row;
   int points = 0;
+  double expansion = 0;  // 1/s, divergence that v is given; 0 but where area is to be given back
 };
 
 // Factors of the backward difference.
@@ -51,6 +53,7 @@ struct ProjectionReport {
   PoissonReport poisson;
   linear::BiCgStabReport viscosity;  // where it is implicit
   int poor = 0;  // points whose neighbours do not determine all derivatives
+  int limited = 0;  // points whose speed was held to the largest around (spray.hpp)
 };
 
 // x += dt (v + r/2 (v - v_old)), to second order where the accelerations of this step are those of the last; wrapped into the period.
@@ -76,6 +79,7 @@ class Projection {
   void hold_walls(const Flow& flow);
   void find_sources(const Flow& flow, const Backward& time);
   void correct(const Flow& flow, const Backward& time);
+  void settle(const Flow& flow);
   void smooth_edges(const Flow& flow);
   double pressure_scale(const Flow& flow);
 

@@ -7,10 +7,10 @@ namespace freshet::fpm {
 
 constexpr double no_water = -1e300;  // m
 
-// Highest level [m] at which the surface crosses the upright line at x [m]. radius: of the empty circle, x spacing.
-double highest_level(const Cloud& cloud, const Field<int>& surface, int n, double radius, double x);
+// Highest level [m] at which the surface crosses the upright line at x [m]. rule: the one that the surface was found by.
+double highest_level(const Cloud& cloud, const Field<int>& surface, int n, const VoronoiRule& rule, double x);
 
 // Largest x [m] of the water.
-double farthest_x(const Cloud& cloud, const Field<int>& surface, int n, double radius);
+double farthest_x(const Cloud& cloud, const Field<int>& surface, int n, const VoronoiRule& rule);
 
 }  // namespace freshet::fpm

@@ -24,7 +24,7 @@ void Transfer::find(const Near& near, const VecField<double, 2>& places, const F
       });
 }
 
-void Transfer::apply(const Field<double>& field, const Field<double>& value) const {
+void Transfer::apply(const Field<double>& field, const Field<double>& value, const Field<double>& slack) const {
   const Near near = near_;
   const VecField<double, 2> places = places_;
   const auto factors = factors_;
@@ -36,8 +36,8 @@ void Transfer::apply(const Field<double>& field, const Field<double>& value) con
           sum += weight(r2 * per_h * per_h) * dot(factors(k), scaled_basis(d, per_h)) * field(j);
           low = smaller(low, field(j)), high = larger(high, field(j));
         });
-        const double slack = 0.5 * (high - low);
-        value(k) = low <= high ? clamp(sum, low - slack, high + slack) : 0.0;
+        const double beyond = slack(k) * (high - low);
+        value(k) = low <= high ? clamp(sum, low - beyond, high + beyond) : 0.0;
       });
 }
 

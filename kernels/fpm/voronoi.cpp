@@ -68,10 +68,11 @@ struct Searcher {
   KOKKOS_INLINE_FUNCTION void surface_edge(Look& l, int k) const {
     const Cell& cell = l.c.cell;
     const int number = cell.edge[k];
-    const double open2 = half(l.i) * half(l.i), longest = rule.edge * l.dx;
+    const Radii radii(rule, l.dx);
+    const double longest = rule.edge * l.dx;
     if (number < 0 || l.c.around.r2[number] < longest * longest || !speaks(l, number)) return;
-    if (cell.distance2(k) < open2 && cell.distance2(cell.after(k)) < open2) return;
-    if (l.c.around.r2[number] >= 4 * open2) return;
+    if (!is_air(l.c, cloud, l.i, k, radii) && !is_air(l.c, cloud, l.i, cell.after(k), radii)) return;
+    if (l.c.around.r2[number] >= 4 * radii.open2 || crosses_air(l.c, cloud, l.i, number)) return;
     const Vec<double, 2> middle = 0.5 * l.to(number);
     const Footing under = cloud.tank.nearest(l.p + middle, 1e-3 * l.dx);
     if (under.side < 0) l.offer(Missing::on_surface, root(l.c.around.r2[number]) / longest, middle);
@@ -79,12 +80,12 @@ struct Searcher {
 
   KOKKOS_INLINE_FUNCTION Missing search(int i, const PointCell& c) const {
     Look l{i, at(cloud.near.x, i), c, cloud.spacing_at(i), {}};
-    const double open2 = half(i) * half(i);
+    const Radii radii(rule, l.dx);
     for (int k = 0; k < c.cell.size; ++k) {
       surface_edge(l, k);
       const int a = c.cell.edge[c.cell.before(k)], b = c.cell.edge[k];
       const double r2 = c.cell.distance2(k);
-      if (r2 >= open2 || a == Cell::open || b == Cell::open) continue;
+      if (a == Cell::open || b == Cell::open || is_air(c, cloud, i, k, radii)) continue;
       if (a >= 0 && b >= 0) triangle(l, a, b, r2, k);
       else if (a < 0 && b < 0) wall_corner(l, Cell::segment_of(a), Cell::segment_of(b), r2, k);
       else wall_gap(l, Cell::segment_of(a < 0 ? a : b), a < 0 ? b : a, r2, k);
@@ -103,6 +104,8 @@ void reserve(View& view, const char* label, int n) {
 
 VoronoiReport Voronoi::find(const Cloud& cloud, int n, const Field<int>& surface, bool flags_only) {
   if (!flags_only) reserve(missing_, "fpm.missing", n);
+  for (Field<double>* f : {&open_.x, &open_.y}) reserve(*f, "fpm.open", n);
+  const VecField<double, 2> open = open_, seen = cloud.open;
   const auto missing = missing_;
   const Searcher searcher{cloud, rule_};
   VoronoiReport r;
@@ -110,13 +113,16 @@ VoronoiReport Voronoi::find(const Cloud& cloud, int n, const Field<int>& surface
       KOKKOS_LAMBDA(int i, int& surfaces, int& holes, int& failures) {
         const double half = searcher.half(i);
         const PointCell c = cell_of(cloud, i, half);
-        surface(i) = c.cell.reach2() >= half * half;
+        const Vec<double, 2> air = open_side(c, cloud, i, Radii(searcher.rule, cloud.spacing_at(i)));
+        put(open, i, air);
+        surface(i) = air.x != 0 || air.y != 0;
         surfaces += surface(i);
         failures += !c.complete;
         if (flags_only) return;
         missing(i) = searcher.search(i, c);
         holes += missing(i).kind != Missing::none;
       }, r.surface, r.missing, r.failed);
+  if (seen.x.extent(0) > 0) Kokkos::parallel_for("fpm::remember_air", Range(0, n), KOKKOS_LAMBDA(int i) { put(seen, i, at(open, i)); });
   return r;
 }
 

@@ -1,6 +1,8 @@
 // Local Voronoi cells (thesis 5.3.3 and 5.3.5 without a global triangulation): which points lie on the free surface, and
 // where points are missing. A point is on the surface iff its cell, cut by the walls, has a corner at `surface` or farther:
 // then a circle of that radius through it is empty. Cells closer than that are exact; each point costs about a microsecond.
+// Water that comes near other water has air between: an empty circle that was air stays so down to the radius `closed`, told
+// by the sides on which its points were open when last looked at. At 1.3 dx a gap of 2.5 dx would be water at once.
 #pragma once
 #include "cellgrid/near.hpp"
 #include "kernels/fpm/cell.hpp"
@@ -11,6 +13,7 @@ namespace freshet::fpm {
 // Lengths and areas in units of the spacing at the point.
 struct VoronoiRule {
   double surface = 1.3;  // radius of the empty circle that makes a surface
+  double closed = 0.6;   // of the one below which a gap that closes is water
   double hole = 0.9;     // circumradius beyond which a triangle is a hole; new point at its circumcentre
   double area = 0;       // > 0: the thesis' rule instead, triangles of more than this (0.76 dx^2) get a point at their centroid
   double edge = 1.45;    // surface edges and gaps on walls longer than this are halved
@@ -23,6 +26,7 @@ struct Cloud {
   TankView tank;
   double spacing;       // m, dx
   Field<double> dx{};   // m, that of each point where it varies
+  VecField<double, 2> open{};  // 1, towards the air when last looked at: unit, all_round, or 0 inside the water; may be absent
 
   KOKKOS_FORCEINLINE_FUNCTION double spacing_at(int i) const { return dx.extent(0) > 0 ? dx(i) : spacing; }
 };
@@ -94,6 +98,57 @@ KOKKOS_INLINE_FUNCTION PointCell cell_of(const Cloud& cloud, int i, double half)
   return PointCell(half);
 }
 
+// Of a point with air on opposite sides.
+KOKKOS_INLINE_FUNCTION Vec<double, 2> all_round() { return {2, 0}; }
+
+// Whether point j was open towards d, within 60 degrees.
+KOKKOS_INLINE_FUNCTION bool faces(const Cloud& cloud, int j, const Vec<double, 2>& d) {
+  if (cloud.open.x.extent(0) == 0) return false;
+  const Vec<double, 2> o = at(cloud.open, j);
+  const double o2 = dot(o, o), along = dot(o, d);
+  return o2 > 1.5 || (o2 > 0 && along > 0 && along * along > 0.25 * dot(d, d));
+}
+
+// Radii within which empty circles are water [m]: of gaps that close, of all others.
+struct Radii {
+  double closed2, open2;  // squared
+  KOKKOS_INLINE_FUNCTION Radii(const VoronoiRule& rule, double dx)
+      : closed2(rule.closed * rule.closed * dx * dx), open2(rule.surface * rule.surface * dx * dx) {}
+};
+
+// Whether the way from point i to its neighbour crosses a gap: both are open towards each other, and not threads both.
+KOKKOS_INLINE_FUNCTION bool crosses_air(const PointCell& c, const Cloud& cloud, int i, int number) {
+  const Vec<double, 2> way{c.around.x[number], c.around.y[number]};
+  const int j = c.around.j[number];
+  if (!faces(cloud, i, way) || !faces(cloud, j, -1.0 * way)) return false;
+  return dot(at(cloud.open, i), at(cloud.open, i)) < 1.5 || dot(at(cloud.open, j), at(cloud.open, j)) < 1.5;
+}
+
+// Whether the empty circle round a corner of point i's cell holds air: it is as large as the surface's, or a gap that has not closed.
+KOKKOS_INLINE_FUNCTION bool is_air(const PointCell& c, const Cloud& cloud, int i, int corner, const Radii& radii) {
+  const double r2 = c.cell.distance2(corner);
+  if (r2 >= radii.open2) return true;
+  const int a = c.cell.edge[c.cell.before(corner)], b = c.cell.edge[corner];
+  if (r2 < radii.closed2 || a < 0 || b < 0) return false;  // walls are softer the sooner they are met
+  const Vec<double, 2> to{c.cell.x[corner], c.cell.y[corner]};
+  const auto open = [&](int number) { return faces(cloud, c.around.j[number], to - Vec<double, 2>{c.around.x[number], c.around.y[number]}); };
+  return faces(cloud, i, to) && open(a) && open(b);
+}
+
+// Towards the air around point i: 0, a unit vector or all_round.
+KOKKOS_INLINE_FUNCTION Vec<double, 2> open_side(const PointCell& c, const Cloud& cloud, int i, const Radii& radii) {
+  Vec<double, 2> sum;
+  int count = 0;
+  for (int k = 0; k < c.cell.size; ++k) {
+    if (!is_air(c, cloud, i, k, radii)) continue;
+    sum += (1 / root(c.cell.distance2(k))) * Vec<double, 2>{c.cell.x[k], c.cell.y[k]};
+    ++count;
+  }
+  const double length = root(dot(sum, sum));
+  if (count == 0) return {};
+  return length > 0.3 * count ? (1 / length) * sum : all_round();
+}
+
 // Calls visit(a, b, circumradius2, corner) for the Delaunay triangles (i, a, b) with a circumradius below half; a and b are
 // numbers in c.around.
 template <class Visit>
@@ -124,7 +179,7 @@ class Voronoi {
  public:
   explicit Voronoi(const VoronoiRule& rule) : rule_(rule) {}
 
-  // Writes surface (1 on the free surface, else 0) for all n points, and where points are missing unless flags_only.
+  // Writes surface (1 on the free surface, else 0) and cloud.open for all n points, and where points are missing unless flags_only.
   VoronoiReport find(const Cloud& cloud, int n, const Field<int>& surface, bool flags_only = false);
 
   const Kokkos::View<Missing*, Memory>& missing() const { return missing_; }
@@ -133,6 +188,7 @@ class Voronoi {
  private:
   VoronoiRule rule_;
   Kokkos::View<Missing*, Memory> missing_;
+  VecField<double, 2> open_;  // 1, found in this look
 };
 
 }  // namespace freshet::fpm

@@ -1,19 +1,12 @@
 #include "kernels/sisph/closure.hpp"
 
-#include <utility>
-
 #include "kernels/linear/cg.hpp"
+#include "kernels/sisph/parts.hpp"
 
 namespace freshet::sisph {
 namespace {
 
 constexpr double closed_already = 1e-12;  // of sum_j A_ij: round-off
-
-// The components of a vector unknown lie one after another.
-VecField<double, 1> parts(const Field<double>& v, int stride, Vec<double, 1>) { return {Kokkos::subview(v, std::make_pair(0, stride))}; }
-VecField<double, 2> parts(const Field<double>& v, int stride, Vec<double, 2>) {
-  return {Kokkos::subview(v, std::make_pair(0, stride)), Kokkos::subview(v, std::make_pair(stride, 2 * stride))};
-}
 
 // y = sum_j A n n . (x_i - x_j); returns the slice's part of x . y.
 template <int D>
@@ -32,10 +25,7 @@ struct Springs {
     });
     sum = free_lanes(g, me) * sum;
     me.store(y, sum);
-    const Lane product = dot(xi, sum);
-    double total = 0;
-    for (int l = 0; l < me.count; ++l) total += lane_of(product, l);
-    return {{total}};
+    return {{sum_of(me, dot(xi, sum))}};
   }
 };
 

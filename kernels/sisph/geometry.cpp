@@ -75,6 +75,19 @@ void measure_pairs(const Geometry<D>& g, const Shapes<D>& shapes, bool sized) {
   }, shapes.kernel);
 }
 
+// Not taken apart by -fassociative-math, so that what is symmetric in i and j is so to the bit.
+KOKKOS_FORCEINLINE_FUNCTION Lane together(Lane a) {
+#if defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__) && !defined(KOKKOS_ENABLE_CUDA) && !defined(KOKKOS_ENABLE_HIP)
+#ifdef FRESHET_SCALAR
+  return __builtin_assoc_barrier(a);
+#else
+  return Lane(__builtin_assoc_barrier(a.v));
+#endif
+#else
+  return a;
+#endif
+}
+
 template <int D>
 struct Areas {
   Geometry<D> g;
@@ -84,7 +97,7 @@ struct Areas {
     const Lane omega = me.load(g.omega), per = 1.0 / me.load(g.moment);
     g.pairs.for_each(s, [&](int e, PairIndex j) {
       const Lane slope = PairView::load(g.weight, e), other = gather(g.omega.data(), j);
-      PairView::store(g.area, e, (omega * other) * slope * (per + 1.0 / gather(g.moment.data(), j)));
+      PairView::store(g.area, e, together(omega * other) * slope * together(per + 1.0 / gather(g.moment.data(), j)));
       PairView::store(g.weight, e, other * slope);
     });
   }

@@ -23,13 +23,13 @@ struct Smooth {
   }
 };
 
-// S^-1, or the inverse of S + 0.1 tr(S) 1 where S is nearly singular; zero for zero.
+// S^-1, or the inverse of S + 0.1 tr(S) 1 where S is singular, of what lies between where it nearly is; zero for zero.
 KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 1> guarded_inverse(const Sym<Lane, 1>& m) {
   return {select(Lane(1e-12) < m.xx, 1.0 / (m.xx + least_moment), Lane(0.0))};
 }
 KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 2> guarded_inverse(const Sym<Lane, 2>& m) {
   const Lane half = 0.5 * trace(m), flat = m.xx * m.yy - m.xy * m.xy;
-  const Lane extra = select(flat < 0.05 * half * half, 0.2 * half, Lane(0.0));
+  const Lane extra = 0.2 * half * larger(1.0 - flat / (0.05 * half * half + 1e-300), Lane(0.0));
   const Lane xx = m.xx + extra, yy = m.yy + extra, det = xx * yy - m.xy * m.xy;
   const Lane per = select(Lane(1e-24) < half, 1.0 / (det + least_moment), Lane(0.0));
   return {per * yy, -per * m.xy, per * xx};
@@ -43,6 +43,7 @@ struct Drying {
   VecField<double, D> gradient;
 
   KOKKOS_FUNCTION void operator()(int k) const {
+    constexpr double film = 1e-6, clear = 0.05;  // m; of the deepest pair, above every bed around: away from the front
     const int s = active(k);
     const Lanes me = g.pairs(s);
     const Lane bi = me.load(bed), eta = bi + larger(me.load(depth), Lane(0.0));
@@ -60,24 +61,16 @@ struct Drying {
       lowest = smaller(lowest, smaller(eta, level) - higher);
       deepest = larger(deepest, above);
     });
-    // Weights of order one, so that "nearly zero" means something.
-    const Lane per = 1.0 / deepest;
-    const Vec<Lane, D> smooth = me.load(g.inverse) * sum, front = guarded_inverse(scaled(moment, per)) * (per * weighted);
-    const auto at_front = !(Lane(0.0) < lowest);
-    me.store(gradient, free_lanes(g, me) * chosen(at_front, front, smooth));
+    // Weights of order one, so that "nearly zero" means something; a film says nothing of the surface where water comes to.
+    const Lane per = 1.0 / deepest, told = deepest / (deepest + film);
+    const Vec<Lane, D> smooth = me.load(g.inverse) * sum, front = told * (guarded_inverse(scaled(moment, per)) * (per * weighted));
+    const Lane away = larger(smaller(per * lowest / clear, Lane(1.0)), Lane(0.0));
+    me.store(gradient, free_lanes(g, me) * (front + away * (smooth - front)));
   }
 
  private:
   static KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 1> scaled(const Sym<Lane, 1>& m, Lane f) { return {f * m.xx}; }
   static KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 2> scaled(const Sym<Lane, 2>& m, Lane f) { return {f * m.xx, f * m.xy, f * m.yy}; }
-  template <class Mask>
-  static KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 1> chosen(Mask m, const Vec<Lane, 1>& a, const Vec<Lane, 1>& b) {
-    return {select(m, a.x, b.x)};
-  }
-  template <class Mask>
-  static KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 2> chosen(Mask m, const Vec<Lane, 2>& a, const Vec<Lane, 2>& b) {
-    return {select(m, a.x, b.x), select(m, a.y, b.y)};
-  }
 };
 
 template <int D>
@@ -88,7 +81,7 @@ struct Velocities {
   VelocityGradient<D> out;
 
   KOKKOS_FUNCTION void operator()(int k) const {
-    constexpr double thin = 0.2;  // of the deeper of two
+    constexpr double thin = 0.1, full = 0.3;  // of the deeper of two
     const int s = active(k);
     const Lanes me = g.pairs(s);
     const Vec<Lane, D> vi = me.load(water.v);
@@ -102,7 +95,7 @@ struct Velocities {
       of_u += (w * difference.x) * n;
       if constexpr (D == 2) of_v += (w * difference.y) * n;
     });
-    const Lane kept = select(Lane(thin) < least_share, free_lanes(g, me), Lane(0.0));
+    const Lane kept = free_lanes(g, me) * larger(smaller((least_share - thin) / (full - thin), Lane(1.0)), Lane(0.0));
     const Sym<Lane, D> inverse = me.load(g.inverse);
     me.store(out.u, kept * (inverse * of_u));
     if constexpr (D == 2) me.store(out.v, kept * (inverse * of_v));

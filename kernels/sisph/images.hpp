@@ -24,6 +24,14 @@ struct Images {
         });
   }
 
+  // The velocity of an image behind a wall that holds the water: -v.
+  void fill_opposed(const VecField<double, D>& v) const {
+    if (count == 0) return;
+    const Images images = *this;
+    Kokkos::parallel_for("sisph::oppose", Range(0, count),
+                         KOKKOS_LAMBDA(int k) { put(v, images.first + k, -1.0 * at(v, images.source(k))); });
+  }
+
   // The gradients of both components of a vector: R (grad v) R.
   void fill_gradient(const VecField<double, D>& of_u, const VecField<double, D>& of_v) const {
     if (count == 0) return;

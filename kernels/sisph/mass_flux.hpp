@@ -8,8 +8,8 @@
 namespace freshet::sisph {
 
 struct FluxReport {
-  int sweeps = 0;      // of the limiter
-  double clipped = 0;  // m^D x m, volume that was made up at the end: what the limiter left below zero
+  bool limited = false;  // whether some particle would have given more than it had
+  double clipped = 0;    // m^D x m, volume that was made up at the end: what the limiter left below zero
 };
 
 template <int D>
@@ -25,7 +25,7 @@ class MassFlux {
 
  private:
   double least_depth(const SliceList& active, const Water<D>& water, const FreeSurface<D>& surface, double dt);
-  void scale_outflow(const SliceList& active, const Water<D>& water, const FreeSurface<D>& surface, double dt);
+  void scale_outflow(const SliceList& active, const FreeSurface<D>& surface);
 
   Geometry<D> g_;
   OrderedSums sums_;

@@ -50,11 +50,10 @@ MovingWater<D>::MovingWater(int particles, const AnyKernel<D>& kernel, const Mir
   cg_.resize(particles);
 }
 
-// By how much two particles at the edge of each other's support approach in half a step, and a tenth of a spacing.
+// By how much two particles approach in half a step, and a tenth of a spacing.
 template <int D>
 double MovingWater<D>::reach(double dt, double jump) const {
-  const double dx = options_.spacing, wide = options_.support * options_.h / dx;
-  return std::max(1.0, wide) * 0.5 * dt * jump + 0.1 * dx;
+  return 0.5 * dt * jump + 0.1 * options_.spacing;
 }
 
 // Coefficients for all pairs and vectors for all images.
@@ -198,7 +197,7 @@ template <int D>
 double MovingWater<D>::find_jump(const VecField<double, D>& v) {
   g_.images.fill(v);
   double most = 0;
-  Kokkos::parallel_reduce("sisph::jump", Range(0, g_.slices.count), Jump<D>{g_, v, options_.spacing}, Kokkos::Max<double>(most));
+  Kokkos::parallel_reduce("sisph::jump", Range(0, g_.slices.count), Jump<D>{g_, v}, Kokkos::Max<double>(most));
   return std::sqrt(most);
 }
 
@@ -206,7 +205,6 @@ template <int D>
 void MovingWater<D>::measure_jump(const Swarm<D>& now) {
   list_pairs(now, 0);
   start(now);
-  place(now, nullptr, euler_path(), 0);
   jump_ = find_jump(end_);
 }
 

@@ -50,7 +50,7 @@ class MovingWater {
  public:
   MovingWater(int particles, const AnyKernel<D>& kernel, const MirrorWalls<D>& walls, const MovingOptions& options);
 
-  // |v_i - v_j| dx / d_ij of neighbours at most, d >= dx [m/s]: what bounds the step. It is part of the restart state.
+  // The largest |v_i - v_j| of neighbours [m/s]: what bounds the step. It is part of the restart state.
   double jump() const { return jump_; }
   void set_jump(double jump) { jump_ = jump; }
   void measure_jump(const Swarm<D>& now);

@@ -8,11 +8,11 @@ constexpr int terms_of = SemiLagrangian<D>::terms;
 
 // The monomials of an offset in units of the spacing.
 template <class V>
-KOKKOS_FORCEINLINE_FUNCTION void monomials(const Vec<V, 1>& a, V (&term)[2]) {
+KOKKOS_FORCEINLINE_FUNCTION void monomials(const Vec<V, 1>& a, V* term) {
   term[0] = a.x, term[1] = a.x * a.x;
 }
 template <class V>
-KOKKOS_FORCEINLINE_FUNCTION void monomials(const Vec<V, 2>& a, V (&term)[5]) {
+KOKKOS_FORCEINLINE_FUNCTION void monomials(const Vec<V, 2>& a, V* term) {
   term[0] = a.x, term[1] = a.y, term[2] = a.x * a.x, term[3] = a.x * a.y, term[4] = a.y * a.y;
 }
 
@@ -42,27 +42,33 @@ KOKKOS_INLINE_FUNCTION void invert(double (&m)[N][N]) {
   }
 }
 
-// Per particle: the inverse of sum_j w phi phi^T, and a quarter of the squared distance to the nearest neighbour.
+// Per particle: the inverse of sum_j w phi phi^T, the means of phi (times the share of the lift), and a quarter of the
+// squared distance to the nearest neighbour.
 template <int D>
 struct FitMoments {
   Geometry<D> g;
   double per_spacing, per_support;
   int stride;
-  Field<double> inverse, own2;
+  Field<double> inverse, mean, own2;
 
   KOKKOS_FUNCTION void operator()(int k) const {
     constexpr int n = terms_of<D>;
+    constexpr double lift_per_aside = 20;
     const int s = g.slices(k);
     const Lanes me = g.pairs(s);
-    Lane sum[n * (n + 1) / 2], nearest(1e300);
+    Lane sum[n * (n + 1) / 2], first[n], weights(0.0), nearest(1e300);
     for (Lane& m : sum) m = Lane(0.0);
+    for (Lane& m : first) m = Lane(0.0);
     g.pairs.for_each(s, [&](int e, PairIndex) {
       const Lane d = PairView::load(g.distance, e), here = select(Lane(0.0) < PairView::load(g.weight, e), Lane(1.0), Lane(0.0));
       const Lane w = here * fit_weight(per_support * d);
       Lane term[n];
       monomials((per_spacing * d) * PairView::load(g.n, e), term);
-      for (int a = 0; a < n; ++a)
+      for (int a = 0; a < n; ++a) {
+        first[a] += w * term[a];
         for (int b = 0; b <= a; ++b) sum[packed(a, b)] += w * term[a] * term[b];
+      }
+      weights += w;
       nearest = smaller(nearest, select(Lane(0.0) < here, d * d, Lane(1e300)));
     });
     for (int l = 0; l < me.count; ++l) {
@@ -72,6 +78,12 @@ struct FitMoments {
       invert(m);
       for (int a = 0; a < n; ++a)
         for (int b = 0; b <= a; ++b) inverse(static_cast<size_t>(packed(a, b)) * stride + me.particle(l)) = m[a][b];
+      const double per = 1 / (lane_of(weights, l) + 1e-300);
+      double aside2 = 0;  // of the neighbours' middle, in spacings
+      for (int a = 0; a < D; ++a) aside2 += per * per * lane_of(first[a], l) * lane_of(first[a], l);
+      const double lift = per * smaller(lift_per_aside * root(aside2), 1.0);
+      for (int a = 0; a < n; ++a) mean(static_cast<size_t>(a) * stride + me.particle(l)) = lift * lane_of(first[a], l);
+      mean(static_cast<size_t>(n) * stride + me.particle(l)) = lift;
     }
     me.store(own2, 0.25 * nearest);
   }
@@ -87,7 +99,7 @@ struct Fit {
   Geometry<D> g;
   double per_spacing, per_support;
   int stride;
-  Field<double> inverse;
+  Field<double> inverse, mean;
   VecField<double, D> v, u;
   Field<double> fitted;
 
@@ -96,9 +108,10 @@ struct Fit {
     const int s = g.slices(k);
     const Lanes me = g.pairs(s);
     const Vec<Lane, D> vi = me.load(v), ui = me.load(u);
-    Lane sum[fields][n];
+    Lane sum[fields][n], height[fields];
     for (auto& row : sum)
       for (Lane& value : row) value = Lane(0.0);
+    for (Lane& value : height) value = Lane(0.0);
     g.pairs.for_each(s, [&](int e, PairIndex j) {
       const Lane d = PairView::load(g.distance, e);
       // Padding lies at its own particle: every difference is zero.
@@ -110,17 +123,21 @@ struct Fit {
         const Lane weighted = w * term[a];
         for (int f = 0; f < fields; ++f) sum[f][a] += weighted * difference[f];
       }
+      for (int f = 0; f < fields; ++f) height[f] += w * difference[f];
     });
-    const Lane free = free_lanes(g, me);
+    const Lane free = free_lanes(g, me), per = load_at(mean, n, me);
+    for (Lane& value : height) value = per * value;
     for (int a = 0; a < n; ++a) {
       Lane row[n];
       for (int b = 0; b < n; ++b) row[b] = free * load_at(inverse, packed(a, b), me);
       for (int f = 0; f < fields; ++f) {
         Lane value(0.0);
         for (int b = 0; b < n; ++b) value += row[b] * sum[f][b];
-        store_at(fitted, f * n + a, me, value);
+        store_at(fitted, f * (n + 1) + a, me, value);
+        height[f] -= value * load_at(mean, a, me);
       }
     }
+    for (int f = 0; f < fields; ++f) store_at(fitted, f * (n + 1) + n, me, free * height[f]);
   }
 
  private:
@@ -162,15 +179,16 @@ struct Trace {
     return best;
   }
 
-  // The polynomial of the particle: first = 0 for v, D for u.
-  KOKKOS_FUNCTION Vec<double, D> value(const VecField<double, D>& f, int first, int j, const Vec<double, D>& place) const {
+  // The polynomial of the particle, lifted by a part of its neighbours' height over it: first = 0 for v, D for u.
+  KOKKOS_FUNCTION Vec<double, D> value(const VecField<double, D>& f, int first, int j, const Vec<double, D>& place, double lifted) const {
     constexpr int n = terms_of<D>;
-    double term[n];
+    double term[n + 1];
     monomials((1.0 / spacing) * (place - at(g.x, j)), term);
+    term[n] = lifted;
     Vec<double, D> sum = at(f, j);
-    for (int a = 0; a < n; ++a) {
-      sum.x += fitted(static_cast<size_t>(first * n + a) * stride + j) * term[a];
-      if constexpr (D == 2) sum.y += fitted(static_cast<size_t>((first + 1) * n + a) * stride + j) * term[a];
+    for (int a = 0; a <= n; ++a) {
+      sum.x += fitted(static_cast<size_t>(first * (n + 1) + a) * stride + j) * term[a];
+      if constexpr (D == 2) sum.y += fitted(static_cast<size_t>((first + 1) * (n + 1) + a) * stride + j) * term[a];
     }
     return sum;
   }
@@ -185,8 +203,9 @@ struct Trace {
       }
       const Vec<double, D> xi = at(g.x, i), guess = xi - dt * at(v, i);
       const int before = nearest(guess, i);
-      const Vec<double, D> foot = xi - (0.5 * dt) * (at(last, i) + value(v, 0, before, guess));
-      put(carried, i, value(u, D, nearest(foot, before), foot));
+      const Vec<double, D> foot = xi - (0.5 * dt) * (at(last, i) + value(v, 0, before, guess, 0));
+      const Vec<double, D> way = foot - xi;
+      put(carried, i, value(u, D, nearest(foot, before), foot, smaller(root(dot(way, way)) / spacing, 1.0)));
     }
   }
 };
@@ -197,18 +216,21 @@ template <int D>
 SemiLagrangian<D>::SemiLagrangian(const Geometry<D>& g, const Rows& rows, double spacing, double support)
     : g_(g), rows_(rows), spacing_(spacing), support_(support), stride_(g.pairs.particles + lanes),
       inverse_("sisph.fit_inverse", static_cast<size_t>(terms * (terms + 1) / 2) * static_cast<size_t>(stride_)),
+      mean_("sisph.fit_mean", static_cast<size_t>(terms + 1) * static_cast<size_t>(stride_)),
       own2_("sisph.own2", static_cast<size_t>(stride_)),
-      fitted_("sisph.fitted", static_cast<size_t>(2 * D * terms) * static_cast<size_t>(stride_)) {
+      fitted_("sisph.fitted", static_cast<size_t>(2 * D * (terms + 1)) * static_cast<size_t>(stride_)) {
   Kokkos::parallel_for("sisph::fit_moments", Range(0, g.slices.count),
-                       FitMoments<D>{g, 1 / spacing, 1 / support, stride_, inverse_, own2_});
+                       FitMoments<D>{g, 1 / spacing, 1 / support, stride_, inverse_, mean_, own2_});
 }
 
 template <int D>
-void SemiLagrangian<D>::fit(const VecField<double, D>& v, const VecField<double, D>& u) {
-  g_.images.fill(v);
-  g_.images.fill(u);
+void SemiLagrangian<D>::fit(const VecField<double, D>& v, const VecField<double, D>& u, bool slip) {
+  for (const VecField<double, D>& field : {v, u}) {
+    if (slip) g_.images.fill(field);
+    else g_.images.fill_opposed(field);
+  }
   Kokkos::parallel_for("sisph::fit", Range(0, g_.slices.count),
-                       Fit<D>{g_, 1 / spacing_, 1 / support_, stride_, inverse_, v, u, fitted_});
+                       Fit<D>{g_, 1 / spacing_, 1 / support_, stride_, inverse_, mean_, v, u, fitted_});
 }
 
 template <int D>

@@ -14,14 +14,22 @@
 
 namespace freshet::sisph {
 
-// Depth between two particles: their mean where both are wet, else the water above the higher bed.
+// Of the water of one, how much the other must hold for the two to count as wet alike: 0 where one is dry ... 1. Continuous, so that
+// what rounding leaves of a film, or not, is the same to its neighbours.
+template <class V>
+KOKKOS_FORCEINLINE_FUNCTION V wetness(V thinner, V deeper) {
+  constexpr double alike = 0.2;
+  return smaller(thinner / (alike * deeper + 1e-300), V(1.0));
+}
+
+// Depth between two particles: their mean where both are wet, the water above the higher bed where one is dry, and a mean of the two
+// where one holds little.
 template <bool drying, class V>
 KOKKOS_FORCEINLINE_FUNCTION V face_depth(V depth_i, V depth_j, V bed_i, V bed_j) {
-  constexpr double least = 1e-12;  // m
   const V mean = 0.5 * (depth_i + depth_j);
   if constexpr (!drying) return mean;
-  const V above = larger(bed_i + depth_i, bed_j + depth_j) - larger(bed_i, bed_j);
-  return select((V(0.0) < depth_i) & (V(0.0) < depth_j), mean, select(V(least) < above, above, V(0.0)));
+  const V above = larger(larger(bed_i + depth_i, bed_j + depth_j) - larger(bed_i, bed_j), V(0.0));
+  return above + wetness(smaller(depth_i, depth_j), larger(depth_i, depth_j)) * (mean - above);
 }
 
 // The state that a step starts from.

@@ -1,21 +1,16 @@
 // The loops over pairs and particles of surface.cpp.
 #pragma once
+#include "kernels/sisph/parts.hpp"
 #include "kernels/sisph/surface.hpp"
 
 namespace freshet::sisph {
 namespace {
 
-KOKKOS_FORCEINLINE_FUNCTION double sum_of(const Lanes& me, Lane a) {
-  double total = 0;
-  for (int l = 0; l < me.count; ++l) total += lane_of(a, l);
-  return total;
-}
-
 // The depth of what runs up onto dry land: the water that half its velocity head lifts above the higher bed, at most that at the
-// pair's middle. Without it a front stands before every particle that is dry until the water is as high as that particle's bed.
+// pair's middle and what there is. Without it a front stands before every particle that is dry until the water is as high as that particle's bed.
 KOKKOS_FORCEINLINE_FUNCTION Lane run_up_depth(Lane depth, Lane bed, Lane dry_bed, Lane half_head) {
   const Lane lifted = bed + depth + half_head - dry_bed, middle = depth + 0.5 * (bed - dry_bed);
-  return larger(smaller(lifted, middle), Lane(0.0));
+  return larger(smaller(smaller(lifted, middle), depth), Lane(0.0));
 }
 
 // a, f, b, the row sums, the residual of the iterate and the share of its outflow f that a particle has water for; returns the
@@ -38,7 +33,7 @@ struct Coefficients {
     const auto outward = Lane(0.0) < vn;
     const Lane giver = select(outward, hi, hj), taker = select(outward, hj, hi), half_head = (0.25 / gravity) * vn * vn;
     const Lane up = run_up_depth(giver, select(outward, bi, bj), select(outward, bj, bi), half_head);
-    return larger(still, select((Lane(0.0) < giver) & !(Lane(0.0) < taker), up, Lane(0.0)));
+    return still + (1.0 - wetness(taker, giver)) * larger(up - still, Lane(0.0));
   }
 
   KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, D> pair_velocity(const Vec<Lane, D>& vi, const Vec<Lane, D>& vj, Lane hi, Lane hj) const {

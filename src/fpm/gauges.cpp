@@ -6,6 +6,7 @@
 namespace freshet::fpm {
 namespace {
 
+constexpr double beyond = 0.5;  // x range of the values around: what is shown may lie so far outside it
 constexpr double wet_within = 1.0;  // x dx: a place without a point so near is dry
 
 struct Probe {
@@ -18,11 +19,12 @@ Probe pressure_at(const Cloud& cloud, const Field<double>& p, const Point& at, d
   const VecField<double, 2> place{Field<double>("fpm.gauge", 1), Field<double>("fpm.gauge", 1)};
   Kokkos::deep_copy(place.x, at[0]);
   Kokkos::deep_copy(place.y, at[1]);
-  const Field<double> value("fpm.gauge", 1), h("fpm.gauge", 1);
+  const Field<double> value("fpm.gauge", 1), h("fpm.gauge", 1), slack("fpm.gauge", 1);
   Kokkos::deep_copy(h, support * dx);
+  Kokkos::deep_copy(slack, beyond);
   Transfer transfer;
   transfer.find(cloud.near, place, h, 1);
-  transfer.apply(p, value);
+  transfer.apply(p, value, slack);
   const Near near = cloud.near;
   const double reach = wet_within * dx;
   int points = 0;
@@ -36,7 +38,7 @@ Probe pressure_at(const Cloud& cloud, const Field<double>& p, const Point& at, d
 std::vector<PointState> Solver::gauge(const std::vector<Gauge>& gauges) const {
   const Cloud cloud = management_.cloud(points_, order_);
   const Field<int> surface = points_.integer("surface");
-  const double radius = management_.rule().voronoi.surface;
+  const VoronoiRule& rule = management_.rule().voronoi;
   std::vector<PointState> states;
   for (const Gauge& g : gauges) {
     PointState state;
@@ -46,7 +48,7 @@ std::vector<PointState> Solver::gauge(const std::vector<Gauge>& gauges) const {
       state.reached = probe.wet, state.depth = probe.wet ? probe.pressure : 0;
     } else {
       const bool front = g.what == Gauge::What::front;
-      const double place = front ? farthest_x(cloud, surface, points_.size(), radius) : highest_level(cloud, surface, points_.size(), radius, g.at[0]);
+      const double place = front ? farthest_x(cloud, surface, points_.size(), rule) : highest_level(cloud, surface, points_.size(), rule, g.at[0]);
       state.reached = place > no_water, state.depth = state.reached ? place : 0;
     }
     states.push_back(state);

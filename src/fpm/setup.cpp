@@ -1,5 +1,6 @@
 // From a scene to the solver's state: walls, points and their fields.
 #include <cmath>
+#include <cstdio>
 
 #include "src/fpm/place.hpp"
 #include "src/fpm/solver.hpp"
@@ -49,19 +50,20 @@ Solver::Solver(const Scene& scene)
   order_.sort(points_);
   management_.flag(points_, order_);
   management_.hold_velocities(points_);
+  keeper_.start(totals().mass);
 }
 
 void Solver::make_fields() {
   for (const char* name : {"x", "y"}) points_.real(name, "m", Carry::state);
   for (const char* name : {"u", "v", "u_old", "v_old"}) points_.real(name, "m/s", Carry::state);
-  points_.real("p", "Pa", Carry::state);
+  for (const char* name : {"p", "phi"}) points_.real(name, "Pa", Carry::state);
   points_.real("h", "m", Carry::state);
   if (grading_) points_.real("dx", "m", Carry::state);
   points_.integer("id", "1", Carry::state);
   Points::make_fields(points_);
   for (const char* name : {"u_star", "v_star"}) points_.real(name, "m/s", Carry::no);
   for (const char* name : {"normal_x", "normal_y"}) points_.real(name, "1", Carry::no);
-  for (const char* name : {"q", "phi", "given"}) points_.real(name, "Pa", Carry::no);
+  for (const char* name : {"q", "given"}) points_.real(name, "Pa", Carry::no);
   points_.real("source", "Pa/m2", Carry::no);
   points_.real("flux", "Pa/m", Carry::no);
   points_.integer("row", "1", Carry::no);
@@ -70,9 +72,9 @@ void Solver::make_fields() {
 Flow Solver::bind() const {
   const FieldSet& f = points_;
   const auto pair = [&f](const char* x, const char* y) { return VecField<double, 2>{f.real(x), f.real(y)}; };
-  return {pair("x", "y"), pair("u", "v"), pair("u_old", "v_old"), f.real("p"), f.integer("kind"), f.integer("side"),
-          f.integer("surface"), pair("u_star", "v_star"), pair("normal_x", "normal_y"), f.real("q"), f.real("phi"), f.real("source"),
-          f.real("flux"), f.real("given"), f.integer("row"), f.size()};
+  return {pair("x", "y"), pair("u", "v"), pair("u_old", "v_old"), f.real("p"), f.real("phi"), f.integer("kind"), f.integer("side"),
+          f.integer("surface"), pair("u_star", "v_star"), pair("normal_x", "normal_y"), f.real("q"), f.real("source"),
+          f.real("flux"), f.real("given"), f.integer("row"), f.size(), keeper_.expansion()};
 }
 
 void Solver::place() {
@@ -121,6 +123,7 @@ std::vector<std::string> Solver::features() const {
   if (scene_.fpm->viscosity > 0) on.push_back(scene_.fpm->implicit_viscosity ? "implicit viscosity" : "viscosity");
   if (tank_.size() > 0) on.push_back(scene_.fpm->slip ? "walls: slip" : "walls: no slip");
   if (grading_) on.push_back("spacing by place");
+  if (scene_.fpm->by_neighbours) on.push_back("supports by number of neighbours");
   if (scene_.fpm->periodic[0] || scene_.fpm->periodic[1]) on.push_back("periodic domain");
   return on;
 }
@@ -129,7 +132,20 @@ ScalarState Solver::scalars() const {
   return {{"last_dt", {last_dt_}},
           {"next_id", {static_cast<double>(next_id_)}},
           {"counts", {static_cast<double>(counts_.inserted), static_cast<double>(counts_.merged), static_cast<double>(counts_.removed),
-                      static_cast<double>(counts_.landed)}}};
+                      static_cast<double>(counts_.landed)}},
+          {"limited", {static_cast<double>(limited_), static_cast<double>(moved_)}},
+          {"area", keeper_.state()}};
+}
+
+std::vector<std::string> Solver::notes() const {
+  std::vector<std::string> all = keeper_.notes();
+  if (limited_ == 0) return all;
+  char text[300];
+  std::snprintf(text, sizeof text,
+                "films, threads and shreds without inner points: %ld velocities (%.2g %% of points x steps) were held to the largest speed around",
+                limited_, 100.0 * static_cast<double>(limited_) / static_cast<double>(moved_));
+  all.emplace_back(text);
+  return all;
 }
 
 void Solver::restore(const ScalarState& scalars) {
@@ -137,6 +153,8 @@ void Solver::restore(const ScalarState& scalars) {
   next_id_ = static_cast<int>(std::lround(scalars.at("next_id").at(0)));
   const std::vector<double>& counts = scalars.at("counts");
   counts_ = {std::lround(counts.at(0)), std::lround(counts.at(1)), std::lround(counts.at(2)), std::lround(counts.at(3))};
+  keeper_.restore(scalars.at("area"));
+  limited_ = std::lround(scalars.at("limited").at(0)), moved_ = std::lround(scalars.at("limited").at(1));
   order_.sort(points_);
 }
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "kernels/fpm/area.hpp"
+#include "kernels/fpm/supports.hpp"
 #include "src/errors.hpp"
 
 namespace freshet::fpm {
@@ -26,6 +27,7 @@ std::string unsolved(const linear::BiCgStabReport& solve, double tolerance) {
 // Moved points are managed and sorted; lists, cells and stencils are those of the new places.
 void Solver::step(double, double dt) {
   const double ratio = last_dt_ > 0 ? dt / last_dt_ : 0;
+  if (keeper_.is_due()) keeper_.look(totals().mass, dt);
   advect(bind(), period_, dt, ratio);
   {
     const Region region("fpm::points");
@@ -36,12 +38,15 @@ void Solver::step(double, double dt) {
     counts_.removed += managed.step.removed;
     counts_.landed += managed.step.landed;
     if (grading_) grading_->size(points_);
+    size_supports();
   }
   const Flow flow = bind();
   const Neighbourhood<2>& around = finder_.find(order_.rows(), flow.x, points_.real("h"), flow.points, period_);
   const ProjectionReport projected = projection_.advance(around, order_.rows(), flow, Backward(dt, ratio));
   pressure_ = projected.poisson;
   viscosity_ = projected.viscosity;
+  limited_ += projected.limited;
+  moved_ += flow.points;
   if (scene_.fpm->implicit_viscosity && !viscosity_.converged && scene_.fpm->viscosity > 0)
     throw Diverged("the implicit viscosity was not solved in " + std::to_string(viscosity_.iterations) +
                    " iterations\n  help: a smaller time.cfl, or fpm.diffusion = \"explicit\"");
@@ -49,6 +54,13 @@ void Solver::step(double, double dt) {
     throw Diverged(unsolved(pressure_.solve, scene_.fpm->tolerance));
   report_.pressure_iterations = pressure_.solve.iterations;
   last_dt_ = dt;
+  keeper_.pass(dt);
+}
+
+void Solver::size_supports() {
+  SupportRule rule;
+  rule.support = scene_.fpm->support;
+  if (scene_.fpm->by_neighbours) fit_supports(management_.cloud(points_, order_), points_.size(), points_.real("h"), rule);
 }
 
 // (5.24)-(5.26): a point moves by a part of its support, viscosity spreads over one, and from rest.
@@ -89,10 +101,10 @@ Field<double> Solver::cell_areas() const {
   const int n = points_.size();
   if (area_.extent_int(0) < n) area_ = Field<double>("fpm.area", static_cast<std::size_t>(n + n / 2));
   const Field<double> area = area_;
-  const double radius = management_.rule().voronoi.surface;
+  const VoronoiRule rule = management_.rule().voronoi;
   Kokkos::parallel_for("fpm::cell_areas", Range(0, n), KOKKOS_LAMBDA(int i) {
-        const double r = radius * cloud.spacing_at(i);
-        area(i) = wet_area(cell_of(cloud, i, r), cloud, i, r);
+        const Radii radii(rule, cloud.spacing_at(i));
+        area(i) = wet_area(cell_of(cloud, i, root(radii.open2)), cloud, i, radii);
       });
   return area;
 }

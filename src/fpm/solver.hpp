@@ -2,6 +2,7 @@
 #pragma once
 #include "kernels/fpm/points.hpp"
 #include "kernels/fpm/projection.hpp"
+#include "src/fpm/area_keeper.hpp"
 #include "src/fpm/grading.hpp"
 #include "src/method.hpp"
 
@@ -22,6 +23,7 @@ class Solver : public Method {
   Mechanics mechanics() const override;
   StepReport report() const override { return report_; }
   std::vector<std::string> features() const override;
+  std::vector<std::string> notes() const override;
   std::vector<PointState> gauge(const std::vector<Gauge>& gauges) const override;
   ScalarState scalars() const override;
   void restore(const ScalarState& scalars) override;
@@ -33,6 +35,7 @@ class Solver : public Method {
  private:
   void make_fields();
   Flow bind() const;
+  void size_supports();
 
   Scene scene_;
   FieldSet points_;
@@ -43,10 +46,12 @@ class Solver : public Method {
   Points management_;
   NeighbourFinder<2> finder_;
   Projection projection_;
+  AreaKeeper keeper_;
   StepReport report_;
   PoissonReport pressure_;
   linear::BiCgStabReport viscosity_;
   PointCount counts_;
+  long limited_ = 0, moved_ = 0;  // points x steps, since t = 0: held within their neighbours' velocities; all
   mutable OrderedSums sums_;
   mutable Field<double> area_;
   double last_dt_ = 0;  // s, 0 before the first step

@@ -33,6 +33,7 @@ EnergyBalance Driver::energy_balance() const {
 std::vector<std::string> Driver::warnings() const {
   std::vector<std::string> all = strain_.warnings(method_.report());
   for (const auto& line : energy_watch_.warnings()) all.push_back(line);
+  for (const auto& line : method_.notes()) all.push_back(line);
   return all;
 }
 

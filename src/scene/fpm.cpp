@@ -57,6 +57,7 @@ void read_fpm(Table& section, Scene& scene) {
   fpm.support = section.number("support").within(2.2, 6).otherwise(fpm.support);
   fpm.hole = section.number("hole").within(0.75, 1.25).otherwise(fpm.hole);
   if (const auto grading = section.function("grading").optional()) fpm.grading = *grading;
+  fpm.by_neighbours = section.choice<bool>("support_by", {{"spacing", false}, {"neighbours", true}}).otherwise(fpm.by_neighbours);
   fpm.scheme = section.choice<PressureScheme>("scheme", {{"filtered", PressureScheme::filtered},
                                                          {"incremental", PressureScheme::incremental},
                                                          {"plain", PressureScheme::plain},
@@ -72,7 +73,7 @@ void read_periodic(Table& domain, Scene& scene) {
   if (axes)
     for (const int axis : *axes) scene.fpm->periodic[static_cast<std::size_t>(axis)] = true;
   for (std::size_t axis = 0; axis < 2; ++axis) {
-    const double length = scene.domain.high[axis] - scene.domain.low[axis], least = (scene.fpm->grading ? 10 : 2.5) * scene.fpm->support * scene.water.spacing;
+    const double length = scene.domain.high[axis] - scene.domain.low[axis], least = (scene.fpm->grading ? 10 : 2.5) * (scene.fpm->by_neighbours ? 1.5 : 1) * scene.fpm->support * scene.water.spacing;
     if (scene.fpm->periodic[axis] && length < least)
       domain.error("periodic", "the domain is " + shown(length) + " m long; a periodic one needs 2.5 of the longest supports, " + shown(least) + " m",
                    "a smaller water.spacing");

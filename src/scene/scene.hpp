@@ -157,6 +157,8 @@ struct Sisph {
   double jump = 0.25;          // moving: |v_i - v_j| dt / dx of neighbours at most
   Solver cg{1e-6, 2000}, newton{1e-6, 60};
   double courant = 1;      // celerity x dt / dx, where the scene names no time.dt
+  double viscosity = 0;    // m2/s, lateral, of the depth's mean (at rest)
+  bool slip = true;        // walls; false: they hold the tangential velocity, too (with viscosity)
   double advection = 0;    // |v| dt / dx at most; 0 = by the momentum: none (semi-Lagrangian), 0.7 (mass flux)
 };
 
@@ -204,6 +206,7 @@ struct Fpm {
   double support = 3.2;    // h0 / dx
   double hole = 0.8;       // x dx: an empty circle larger than this gets a point
   Function grading;        // x dx, the spacing by place: 1 to 4; absent = 1 everywhere
+  bool by_neighbours = false;  // each point's support from the number of its neighbours, `support` being that of a lattice
   PressureScheme scheme = PressureScheme::filtered;
   bool implicit_viscosity = false;  // it does not limit the step then
   bool slip = true;        // walls; false: they also hold the tangential velocity

@@ -33,6 +33,11 @@ void read_sisph(Table& section, Scene& scene) {
   read_solver(section, "newton", sisph.newton);
   sisph.courant = section.number("courant").positive().otherwise(sisph.courant);
   sisph.advection = section.number("advection").positive().otherwise(sisph.advection);
+  sisph.viscosity = section.number("viscosity").at_least(0).otherwise(sisph.viscosity);
+  Value<bool> slip = section.boolean("slip");
+  if (!slip.otherwise(sisph.slip) && sisph.viscosity == 0)
+    slip.fail("water without viscosity slips along any wall", "name 'sisph.viscosity' in m2/s, or leave 'sisph.slip' out");
+  sisph.slip = slip.otherwise(sisph.slip);
   if (scene.method == "sisph") scene.sph.eta = sisph.smoothing;
 }
 
@@ -46,7 +51,7 @@ void check_formulation(Table& section, const Scene& scene) {
     for (const char* key : {"paths", "jump"}) foreign(key, "that move", "leave it out, or sisph.formulation = \"moving\"");
     return;
   }
-  for (const char* key : {"momentum", "closure", "newton", "advection"})
+  for (const char* key : {"momentum", "closure", "newton", "advection", "viscosity", "slip"})
     foreign(key, "at rest", "leave it out, or sisph.formulation = \"at-rest\"");
   const std::string help = "leave it out, or sisph.formulation = \"at-rest\"";
   if (!scene.boundaries.empty()) section.error("formulation", "particles that move know no open boundaries ([[boundary]])", help);

@@ -67,6 +67,7 @@ std::vector<std::string> Solver<D>::features() const {
   if (bed_) names.push_back("bed");
   if (!scene_.walls.empty()) names.push_back("walls of mirror pairs");
   if (scene_.manning) names.push_back("friction, implicit");
+  if (viscosity_) names.push_back(scene_.sisph.slip ? "viscosity, implicit" : "viscosity, implicit; walls hold the water");
   if (open_) names.push_back(std::to_string(scene_.boundaries.size()) + " open " + (scene_.boundaries.size() == 1 ? "boundary" : "boundaries"));
   if (held_ > static_cast<int>(open_ ? open_->size() : 0)) names.push_back(moving_ ? "sides that go on with their velocity at t = 0" : "sides held at their state at t = 0");
   return names;

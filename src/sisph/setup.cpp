@@ -219,9 +219,12 @@ void Solver<D>::build_momentum() {
   }
 }
 
-// g n^2 at each particle, and a place for dt gamma.
+// Viscosity; g n^2 at each particle, and a place for dt gamma.
 template <int D>
 void Solver<D>::build_friction() {
+  const Sisph& sisph = scene_.sisph;
+  if (sisph.viscosity > 0)
+    viscosity_.emplace(geometry_, ViscosityOptions{sisph.viscosity, sisph.slip, sisph.cg.tolerance, sisph.cg.most});
   if (!scene_.manning) return;
   const Manning& manning = *scene_.manning;
   g_n2_ = Field<double>("sisph.g_n2", static_cast<std::size_t>(particles_.size()) + lanes);

@@ -43,10 +43,12 @@ void Solver<D>::carry_along_paths(double t, double dt) {
   const double g = scene_.gravity, theta = scene_.sisph.theta;
   const Water<D> now = water();
   find_slope(now.depth, false);
-  push(now.v, (1 - theta) * g * dt, explicit_);
-  paths_->fit(now.v, explicit_);
   surface_->start(now);
   meet_boundaries(t, dt);
+  find_viscous(dt);
+  push(now.v, (1 - theta) * g * dt, explicit_);
+  add_viscous(explicit_);
+  paths_->fit(now.v, explicit_, scene_.sisph.slip);
   push(now.v, 0, end_);
   for (int pass = 0; pass < scene_.sisph.picard; ++pass) {
     paths_->trace(now.v, explicit_, end_, dt, carried_);
@@ -69,16 +71,19 @@ void Solver<D>::carry_by_fluxes(double t, double dt) {
   surface_->start(now);
   find_push(0, drying);
   meet_boundaries(t, dt);
+  find_viscous(dt);
   push(now.v, 0, carried_);
   for (int pass = 0; pass < scene_.sisph.picard; ++pass) {
     if (conservative_ && pass > 0) find_push(0, drying);  // per mass of the pass before
     push(carried_, (1 - theta) * g * dt, carried_);
+    add_viscous(carried_);
     blend(dt);
     solve_surface(dt, drying);
     fluxes_->close_depths(active_->list(), now, *surface_, dt);
     fluxes_->advect(active_->list(), now, *surface_, velocity_gradient_, dt, carried_);
   }
   if (!conservative_) push(carried_, (1 - theta) * g * dt, carried_);
+  add_viscous(carried_);
   find_push(conservative_ ? theta : 1, drying);
   push(carried_, (conservative_ ? 1 : theta) * g * dt, end_);
   slow_down(end_);
@@ -118,16 +123,18 @@ void Solver<D>::push(const VecField<double, D>& from, double impulse, const VecF
                        KOKKOS_LAMBDA(int i) { put(b, i, at(a, i) - impulse * at(slope, i)); });
 }
 
-// The velocity of the fluxes before the pressure at n+1: theta of what was carried, the rest of what there was.
+// The velocity of the fluxes before the pressure at n+1: theta of what was carried, the rest of what there was; what fell wet within the
+// step had no velocity of its own.
 template <int D>
 void Solver<D>::blend(double dt) {
   const double theta = scene_.sisph.theta;
   const VecField<double, D> carried = carried_, v = water().v, before = before_;
-  const Field<double> drag = drag_;
+  const Field<double> drag = drag_, depth = water().depth, last = surface_->depth();
   const bool dragged = drag.extent(0) > 0;
   Kokkos::parallel_for("sisph::blend", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) {
-        const double share = dragged ? theta / (1 + drag(i)) : theta;
-        put(before, i, share * at(carried, i) + (1 - theta) * at(v, i));
+        const double share = dragged ? theta / (1 + drag(i)) : theta, own = wetness(depth(i), larger(last(i), 0.0));
+        const Vec<double, D> arrived = at(carried, i);
+        put(before, i, share * arrived + (1 - theta) * (arrived + own * (at(v, i) - arrived)));
       });
   if (open_) open_->set_before({v, slope_, theta, theta * scene_.gravity * dt, drag_}, before_);
 }
@@ -140,6 +147,20 @@ void Solver<D>::slow_down(const VecField<double, D>& v) {
   if (drag.extent(0) == 0) return;
   Kokkos::parallel_for("sisph::slow_down", Range(0, particles_.size()),
                        KOKKOS_LAMBDA(int i) { put(slowed, i, (1 / (1 + drag(i))) * at(slowed, i)); });
+}
+
+// What viscosity changes the velocities by: from where the pressure and the friction of the step's start alone would take them.
+template <int D>
+void Solver<D>::find_viscous(double dt) {
+  if (!viscosity_) return;
+  push(water().v, scene_.gravity * dt, end_);
+  slow_down(end_);
+  report_.iterations += viscosity_->find(water(), drag_, end_, dt);
+}
+
+template <int D>
+void Solver<D>::add_viscous(const VecField<double, D>& v) {
+  if (viscosity_) viscosity_->add(drag_, v);
 }
 
 // The friction of the water at t, and the rim's state at t + dt.
@@ -162,9 +183,10 @@ void Solver<D>::solve_surface(double dt, bool drying) {
   report_.unsettled += r.converged ? 0 : 1;
 }
 
-// The state at n+1: velocities stop where no water is left.
+// The state at n+1: velocities stop where no water is left. Films run off without end: what no sum over the water could tell is none.
 template <int D>
 void Solver<D>::accept(double dt, bool closed) {
+  constexpr double rounding = 1e-18;  // of the deepest
   if (open_) open_->set_end(end_);
   const RimFlow rim = rim_->flow(*surface_, dt, closed);
   passed_.inflow += rim.in;
@@ -172,10 +194,12 @@ void Solver<D>::accept(double dt, bool closed) {
   const Water<D> now = water();
   const VecField<double, D> v = now.v, end = end_;
   const Field<double> depth = now.depth, found = surface_->depth(), mass = particles_.real("mass"), omega = geometry_.omega;
+  const double dust = rounding * celerity_ * celerity_ / scene_.gravity;
   Kokkos::parallel_for("sisph::accept", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) {
-        depth(i) = found(i);
-        mass(i) = omega(i) * found(i);
-        put(v, i, (found(i) > 0 ? 1.0 : 0.0) * at(end, i));
+        const bool wet = found(i) > dust;
+        depth(i) = wet ? found(i) : 0.0;
+        mass(i) = omega(i) * depth(i);
+        put(v, i, (wet ? 1.0 : 0.0) * at(end, i));
       });
 }
 

@@ -17,6 +17,7 @@
 #include "kernels/sisph/open.hpp"
 #include "kernels/sisph/rim.hpp"
 #include "kernels/sisph/semi_lagrangian.hpp"
+#include "kernels/sisph/viscosity.hpp"
 #include "src/method.hpp"
 
 namespace freshet::sisph {
@@ -70,6 +71,8 @@ class Solver : public Method {
  public:  // device lambdas may not live in private members
   void build_geometry();
   void slow_down(const VecField<double, D>& v);
+  void find_viscous(double dt);
+  void add_viscous(const VecField<double, D>& v);
   void push(const VecField<double, D>& from, double impulse, const VecField<double, D>& to);
   void blend(double dt);
   void solve_surface(double dt, bool drying);
@@ -98,6 +101,7 @@ class Solver : public Method {
   std::optional<MassFlux<D>> fluxes_;
   std::optional<Rim<D>> rim_;
   std::optional<OpenRim<D>> open_;
+  std::optional<Viscosity<D>> viscosity_;
   std::optional<MovingWater<D>> moving_;  // formulation L; else absent
   double last_dt_ = 0;                    // s, of the step before: for paths that remember
   Field<double> g_n2_, drag_;  // friction: g n^2 of the ground, dt gamma; empty without

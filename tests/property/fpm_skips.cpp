@@ -39,7 +39,7 @@ TEST_CASE("skips: an incompressible step has the launches of its recipe") {
   Names expected{"fpm::advect",      "fpm::hold",     "fpm::voronoi", "fpm::partners",     "fpm::decide",         "fpm::merged_places", "fpm::new_places",
                  "fpm::hold_velocity", "fpm::list",   "fpm::stencils", "fpm::find_rows",   "fpm::fit",            "fpm::guess_pressure", "fpm::predict",
                  "fpm::sources",     "fpm::unknowns", "fpm::rows",    "fpm::right_side",   "fpm::correct",        "fpm::new_state",
-                 "fpm::smooth_edges", "fpm::hold_edges"};
+                 "fpm::smooth_edges", "fpm::hold_edges",    "fpm::remember_air", "fpm::limit_spray"};
   for (const char* sorted : {"extent", "mark", "keep", "clear", "count", "scan", "place", "settle", "permute", "count_clusters", "cut_clusters"})
     expected.insert(std::string("cellgrid::") + sorted);
   CHECK(labels_of("fpm_still_box", inviscid) == expected);

@@ -1,6 +1,8 @@
-// The incompressible scenes of cases/stress (tools/stress_fpm runs them all), a quick part: stable, or stopped with a message, never garbage
-// in silence.
+// The incompressible scenes of cases/stress (tools/stress_fpm runs them all), a quick part: jets, fronts and drops run to their ends; what is
+// not stable stops with a message, never garbage in silence.
 #include <catch2/catch.hpp>
+
+#include <algorithm>
 
 #include "src/errors.hpp"
 #include "tests/support/run_case.hpp"
@@ -21,7 +23,8 @@ Outcome outcome(const std::string& scene, double depth, const std::vector<std::s
     const Summary s = test::run_case("stress/" + scene, overrides);
     const double scale = depth > 0 ? s.mass.initial * 9.81 * depth : s.energy.kinetic_start;
     const double gained = s.energy.kinetic_end + s.energy.potential_end - s.energy.kinetic_start - s.energy.potential_start;
-    return {false, !s.warnings.empty(), "", gained / scale, s.mass.final / s.mass.initial - 1};
+    const bool warned = std::any_of(s.warnings.begin(), s.warnings.end(), [](const std::string& w) { return w.find("gained") != std::string::npos; });
+    return {false, warned, "", gained / scale, s.mass.final / s.mass.initial - 1};
   } catch (const Diverged& why) {
     return {true, false, why.what(), 0, 0};
   }
@@ -42,6 +45,15 @@ void require_sound(const std::string& scene, double depth, const std::vector<std
   CHECK(std::abs(o.area) < 0.03);
 }
 
+// To the end with 5 % of the area and, unless it is said, 2 % of the energy, what the area's change lifts: of M g d (jets: of the start's).
+void require_ran(const std::string& scene, double depth, const std::vector<std::string>& overrides) {
+  const Outcome o = outcome(scene, depth, overrides);
+  CAPTURE(scene, overrides, o.message, o.gained, o.area);
+  REQUIRE_FALSE(o.stopped);
+  CHECK((o.gained <= 0.02 || o.warned));
+  CHECK(std::abs(o.area) < 0.05);
+}
+
 }  // namespace
 
 TEST_CASE("stress: still boxes of any size, spacing and disorder stay sound") {
@@ -53,12 +65,16 @@ TEST_CASE("stress: still boxes of any size, spacing and disorder stay sound") {
                                 "wall.0.line=[[0, 150], [0, 0], [100, 0], [100, 150]]"});
 }
 
-TEST_CASE("stress: fronts, drops and jets are sound or stopped with a message") {
+TEST_CASE("stress: fronts that collide, drops on a pool and jets run to the end") {
   for (const char* cfl : {"time.cfl=0.15", "time.cfl=0.5"}) {
-    require_sound_or_stopped("fpm_fronts", 0.4, {cfl});
-    require_sound_or_stopped("fpm_drop_on_pool", 0.25, {cfl});
+    require_ran("fpm_fronts", 0.4, {cfl});
+    require_ran("fpm_drop_on_pool", 0.25, {cfl});
   }
-  require_sound_or_stopped("fpm_jet", 0, {});
+  require_ran("fpm_jet", 0, {});
+}
+
+TEST_CASE("stress: boxes in ruins, jets of two spacings and stiff fronts are sound or stopped with a message") {
+  require_sound_or_stopped("fpm_jet", 0, {"body.0.box=[0.3, -0.02, 0.98, 0.02]"});  // films of one spacing: 6 % of the area is lost
   require_sound_or_stopped("fpm_box", 0.5, {"water.disorder=5"});
   require_sound_or_stopped("fpm_fronts", 0.4, {"fluid.viscosity=10", "fpm.diffusion=implicit", "time.end=0.1"});
 }

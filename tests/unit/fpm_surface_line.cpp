@@ -10,7 +10,7 @@ using test::FlowPoints;
 namespace {
 
 constexpr double dx = 0.1;     // m
-constexpr double radius = 1.3;  // x dx
+const fpm::VoronoiRule rule;
 
 // Water below the level 1 + slope x for 0 <= x <= 2 in a tank, a lone point above it, a lone one to its right.
 struct Tilted {
@@ -23,8 +23,8 @@ struct Tilted {
     if (drops) all.insert(all.end(), {{1.0, 2.5}, {3.5, 1.0}});
     return all;
   }
-  double level(double x) { return fpm::highest_level(set.cloud(), set.fields.integer("surface"), set.size(), radius, x); }
-  double front() { return fpm::farthest_x(set.cloud(), set.fields.integer("surface"), set.size(), radius); }
+  double level(double x) { return fpm::highest_level(set.cloud(), set.fields.integer("surface"), set.size(), rule, x); }
+  double front() { return fpm::farthest_x(set.cloud(), set.fields.integer("surface"), set.size(), rule); }
 };
 
 }  // namespace

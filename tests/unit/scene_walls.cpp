@@ -78,6 +78,7 @@ TEST_CASE("Walls and [sph] settings that cannot be are errors that say what to d
   CHECK(says(fault("[[wall]]\npolygon = [[0, 0], [1, 0], [0, 1]]\n"), "water' is missing"));
   CHECK(says(fault("[[wall]]\nline = [[0, 0], [1, 0], [1, 0]]\n"), "repeats the one before it"));
   CHECK(says(fault("[[wall]]\nline = [[0, 0], [1, 0]]\n[sph]\nwalls = \"mirror\"\nslip = false\n"), "cannot hold"));
+  CHECK(says(fault("[sisph]\nslip = false\n"), "slips along any wall"));
   CHECK(says(fault("[sph]\nstabilise = \"two-shock\"\nstrength = 0.5\n"), "strength"));
   CHECK(says(fault("[sph]\nviscosity = [1, 0]\n"), "viscosity"));
   CHECK(says(fault("[sph]\nprecision = \"single\"\n"), "mixed"));
