@@ -15,10 +15,11 @@
 namespace freshet::sisph {
 
 // Of the water of one, how much the other must hold for the two to count as wet alike: 0 where one is dry ... 1. Continuous, so that
-// what rounding leaves of a film, or not, is the same to its neighbours.
+// what rounding leaves of a film, or not, is the same to its neighbours. (A solitary wave runs up 5.6 % too low with 0.2, 5.1 with 0.1,
+// 4.7 with 0.05; of a change of the bed by rounding a quarter period of Thacker's bowl makes 2e-7 m with 0.2, 1.2e-6 m with 0.05.)
 template <class V>
 KOKKOS_FORCEINLINE_FUNCTION V wetness(V thinner, V deeper) {
-  constexpr double alike = 0.2;
+  constexpr double alike = 0.05;
   return smaller(thinner / (alike * deeper + 1e-300), V(1.0));
 }
 

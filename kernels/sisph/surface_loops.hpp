@@ -7,7 +7,7 @@ namespace freshet::sisph {
 namespace {
 
 // The depth of what runs up onto dry land: the water that half its velocity head lifts above the higher bed, at most that at the
-// pair's middle and what there is. Without it a front stands before every particle that is dry until the water is as high as that particle's bed.
+// pair's middle and what there is. Without it a front stands before every dry particle until the water is as high as its bed.
 KOKKOS_FORCEINLINE_FUNCTION Lane run_up_depth(Lane depth, Lane bed, Lane dry_bed, Lane half_head) {
   const Lane lifted = bed + depth + half_head - dry_bed, middle = depth + 0.5 * (bed - dry_bed);
   return larger(smaller(smaller(lifted, middle), depth), Lane(0.0));
