@@ -113,7 +113,7 @@ TEST_CASE("sisph moving: what needs the step to be short keeps it short") {
   scene.water.disorder = 0;
   scene.sisph.courant = 100;
   Flow flow(scene);
-  CHECK(flow.method->stable_dt() == Approx(0.25 * 0.05 / 1.0));  // neighbours part with 1 m/s
+  CHECK(flow.method->stable_dt() == Approx(scene.sisph.jump * 0.05 / 1.0));  // neighbours part with 1 m/s
 }
 
 TEST_CASE("sisph moving: large steps have the particle mesh, and resuming goes on with it") {
