@@ -154,7 +154,7 @@ struct Sisph {
   Correction correction = Correction::krongauz_belytschko;
   Formulation formulation = Formulation::at_rest;
   Paths paths = Paths::theta;  // moving
-  double jump = 0.1;           // moving: |v_i - v_j| dt / dx of neighbours at most
+  double jump = 0.25;          // moving: |v_i - v_j| dt / dx of neighbours at most
   Solver cg{1e-6, 2000}, newton{1e-6, 60};
   double courant = 1;      // celerity x dt / dx, where the scene names no time.dt
   double viscosity = 0;    // m2/s, lateral, of the depth's mean (at rest)
