@@ -197,8 +197,12 @@ void Solver<D>::build_momentum() {
   using Momentum = Sisph::Momentum;
   const int slots = geometry_.images.slots();
   const Sisph& sisph = scene_.sisph;
-  surface_.emplace(geometry_, order_.rows(), SurfaceOptions{scene_.gravity, sisph.theta, sisph.cg.tolerance, sisph.newton.tolerance,
-                                                            sisph.cg.most, sisph.newton.most});
+  const SurfaceOptions options{scene_.gravity, sisph.theta, sisph.cg.tolerance, sisph.newton.tolerance, sisph.cg.most, sisph.newton.most};
+  std::optional<PairSource<D>> source;
+  if (sisph.coefficients == Sisph::Coefficients::recomputed)
+    source = PairSource<D>{kernel_, on_host(Kokkos::subview(particles_.real("h"), std::make_pair(0, 1)))(0), closure_.lambda};
+  closure_.lambda = {};
+  surface_.emplace(geometry_, order_.rows(), options, source);
   active_.emplace(geometry_);
   active_->find(particles_.real("depth"), sisph.picard);
   rim_.emplace(geometry_);

@@ -40,7 +40,7 @@ class Solver : public Method {
   Mechanics mechanics() const override;
   StepReport report() const override { return report_; }
   std::vector<PointState> sample(const std::vector<Point>& points) const override;
-  double highest_wet_bed(const Point& at, double radius, double min_depth) const override;
+  WetLevels highest_wet_levels(const Point& at, double radius, double min_depth) const override;
   std::vector<std::string> features() const override;
   ScalarState scalars() const override;
   void restore(const ScalarState& scalars) override;
