@@ -48,6 +48,11 @@ void check_formulation(Table& section, const Scene& scene) {
   const auto foreign = [&](const char* key, const std::string& belongs, const std::string& help) {
     if (section.has(key)) section.error(key, "'sisph." + std::string(key) + "' is for particles " + belongs + " alone", help);
   };
+  if (scene.time_step > 0 && section.has("courant"))
+    section.context().notes.push_back("sisph.courant counts where the scene names no time.dt: the step is " + rounded(scene.time_step) + " s");
+  if (scene.sisph.momentum == Sisph::Momentum::conservative && scene.sisph.picard < 2)
+    section.error("picard", "with one pass the conservative pressure acts on masses of another time and grows without bound",
+                  "sisph.picard = 2 or more, or another sisph.momentum");
   if (scene.sisph.formulation == Sisph::Formulation::at_rest) {
     for (const char* key : {"paths", "jump"}) foreign(key, "that move", "leave it out, or sisph.formulation = \"moving\"");
     return;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "src/errors.hpp"
+#include "src/scene/names.hpp"
 #include "src/scene/open_law.hpp"
 #include "src/scene/place.hpp"
 #include "src/sisph/beside.hpp"
@@ -211,9 +212,9 @@ void Solver<D>::build_momentum() {
   conservative_ = sisph.momentum == Momentum::conservative;
   const bool by_fluxes = conservative_ || sisph.momentum == Momentum::mass_flux ||
                          (sisph.momentum == Momentum::automatic && active_->drying());
-  if (!by_fluxes && active_->drying())
-    throw SceneError("sisph.momentum = \"semi-lagrangian\" needs water everywhere, and " + std::to_string(active_->dry()) +
-                     " particles are dry\n  help: use \"mass-flux\"");
+  if ((conservative_ || !by_fluxes) && active_->drying())  // antisymmetric pressure on a film's mass knows no bound
+    throw SceneError("sisph.momentum = \"" + name_in(momentum_names(), sisph.momentum) + "\" needs water everywhere, and " +
+                     std::to_string(active_->dry()) + " particles are dry\n  help: use \"mass-flux\"");
   if (by_fluxes) {
     fluxes_.emplace(geometry_);
     velocity_gradient_.u = scratch<D>("sisph.grad_u", slots);

@@ -62,6 +62,7 @@ class Solver : public Method {
   std::vector<RimPlace<D>> rim_places() const;
   TracedWater<D> traced() const;
   void meet_boundaries(double t, double dt);
+  void require_water(const std::string& who_needs) const;
   void carry_along_paths(double t, double dt);
   void carry_by_fluxes(double t, double dt);
   void find_slope(const Field<double>& depth, bool drying);
