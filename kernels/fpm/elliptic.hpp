@@ -45,6 +45,8 @@ class Poisson {
   bool singular() const { return singular_; }
   const linear::ClusterMatrix& matrix() const { return matrix_; }
   bool on_mesh() const { return on_mesh_; }
+  // m2, of each point: what its row has per unit of source.
+  const Field<double>& per_source() const { return per_source_; }
 
   void multiply(const Field<double>& x, const Field<double>& y);
   void precondition(const Field<double>& r, const Field<double>& z);
