@@ -91,6 +91,7 @@ double Poisson<D>::look_at_points() {
         least = smaller(least, h(i));
       }, unknowns_, Kokkos::Max<double>(longest), Kokkos::Min<double>(shortest));
   singular_ = unknowns_ == around_.points;
+  weights_.singular = singular_;
   on_mesh_ = longest < even * shortest;
   return longest;
 }

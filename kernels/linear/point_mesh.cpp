@@ -44,10 +44,11 @@ struct FindPlaces {
   static KOKKOS_FORCEINLINE_FUNCTION double clamp(double f) { return smaller(larger(f, 0.0), 1.0); }
 };
 
-// to[j]: P^T (w value) of the cells above node row j, from[j]: of those whose row is j, for the nodes above them.
+// P^T (w (value - mean)): what each row of cells gives to the nodes below and above it.
 struct ToNodes {
   Cells cells;
   Field<double> fx, fy, weight, value;
+  double mean;
   Vector south, north;
 
   KOKKOS_FUNCTION void operator()(int row) const {
@@ -56,7 +57,7 @@ struct ToNodes {
     for (int column = 0, i = cells.begin(row, 0); column < columns; ++column) {
       double all = 0, east = 0, upper = 0, corner = 0;
       for (const int end = cells.first(row * columns + column + 1); i < end; ++i) {
-        const double v = weight(i) * value(i), e = fx(i) * v;
+        const double v = weight(i) * (value(i) - mean), e = fx(i) * v;
         all += v, east += e, upper += fy(i) * v, corner += fy(i) * e;
       }
       south(at + column) = south_east + all - east - upper + corner;
@@ -166,18 +167,26 @@ void PointMesh::build(const Rows& rows, const VecField<double, 2>& x, int points
   const Cells cells{cells_, level.grid, first_};
   const Range of_cells(0, cells_.rows), of_nodes(0, level.grid.ny);
   Kokkos::parallel_for("point_mesh::places", of_cells, FindPlaces{cells, rows, bins_per_cell(rows), x, node_, fx_, fy_});
-  Kokkos::parallel_for("point_mesh::masses", of_cells, ToNodes{cells, fx_, fy_, weight_, weights.held, south_, north_});
+  Kokkos::parallel_for("point_mesh::masses", of_cells, ToNodes{cells, fx_, fy_, weight_, weights.held, 0.0, south_, north_});
   Kokkos::parallel_for("point_mesh::add_masses", of_nodes, AddRows{cells, south_, north_, level.mass});
   Kokkos::parallel_for("point_mesh::conductances", of_cells, Conductances{cells, fx_, fy_, weights.area, south_, north_, level.north});
   Kokkos::parallel_for("point_mesh::add_conductances", of_nodes, AddRows{cells, south_, north_, level.east});
   multigrid_.coarsen();
+  total_weight_ = weights.singular ? sum_of_weights() : 0;
 }
+
+double PointMesh::sum_of_weights() {
+  const Field<double> weight = weight_;
+  return sums_.sum<1>("point_mesh::weight", points_, KOKKOS_LAMBDA(int i) { return Kokkos::Array<double, 1>{{weight(i)}}; })[0];
+}
+
+double PointMesh::mean(const Vector& r) { return dot(sums_, points_, weight_, r) / total_weight_; }
 
 void PointMesh::operator()(const Vector& r, const Vector& z) {
   const Region region("point_mesh::cycle");
   const BoxLevel& level = multigrid_.finest();
   const Cells cells{cells_, level.grid, first_};
-  Kokkos::parallel_for("point_mesh::to_nodes", Range(0, cells_.rows), ToNodes{cells, fx_, fy_, weight_, r, south_, north_});
+  Kokkos::parallel_for("point_mesh::to_nodes", Range(0, cells_.rows), ToNodes{cells, fx_, fy_, weight_, r, total_weight_ > 0 ? mean(r) : 0.0, south_, north_});
   Kokkos::parallel_for("point_mesh::add_rows", Range(0, level.grid.ny), AddRows{cells, south_, north_, level.right});
   const Vector c = multigrid_.cycle();
   Kokkos::parallel_for("point_mesh::from_nodes", Range(0, (points_ + lanes - 1) / lanes),

@@ -4,7 +4,7 @@
 //   -sum_i a_i (lumped grad N . grad N) + P^T (w d),   w_i = a_i / s_i
 // where row i is about -s_i lap and d_i is the part of its entries that lies on given points (mass by which nodes near them are held).
 // Cells are four spacings / 2 of a row of cellgrid's order, so that a cell's points follow each other. A periodic axis closes with a
-// cell as wide as is left. All passes are by rows of cells or blocks of points: results do not depend on the number of threads.
+// cell as wide as is left. Where constants are free the mesh sees r without its weighted mean. All passes are by rows of cells or blocks of points: results do not depend on the number of threads.
 #pragma once
 #include "cellgrid/clusters.hpp"
 #include "cellgrid/near.hpp"
@@ -23,9 +23,10 @@ struct MeshCells {
   KOKKOS_FORCEINLINE_FUNCTION double height_of(int j) const { return j + 1 == rows ? last_height : height; }
 };
 
-// Of each point: a [m2], 1/m2 x its row's s, d; w = 0: its value is given.
+// Of each point: a [m2], w [1], d; w = 0: its value is given. singular: constants are in the matrix' null space.
 struct MeshWeights {
   Field<double> area, weight, held;
+  bool singular = false;
 };
 
 class PointMesh {
@@ -39,9 +40,12 @@ class PointMesh {
   // z := as above.
   void operator()(const Vector& r, const Vector& z);
 
+  double sum_of_weights();  // device lambdas may not live in private members
+
  private:
   static int bins_per_cell(const Rows& rows);
   void lay(const Rows& rows, const Period& period);
+  double mean(const Vector& r);
 
   MeshCells cells_;
   BoxMultigrid multigrid_;
@@ -49,7 +53,9 @@ class PointMesh {
   Field<int> node_;                 // south-west of each point
   Field<double> fx_, fy_, weight_;  // where in its cell, 0 to 1; w
   Vector south_, north_;            // what a row of cells gives to the nodes below and above it
+  double total_weight_ = 0;         // where constants are free, else 0
   int points_ = 0;
+  OrderedSums sums_;
 };
 
 }  // namespace freshet::linear
