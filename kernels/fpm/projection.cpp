@@ -109,7 +109,7 @@ ProjectionReport Projection::advance(const Neighbourhood<2>& around, const Rows&
   }
   {
     const Region region("fpm::pressure");
-    poisson_.assemble(around, rows, {flow.row, flow.normal});
+    poisson_.assemble(stencils_.view(), rows, {flow.row, flow.normal});
     linear::BiCgStabOptions options;
     options.tolerance = rule_.tolerance;
     options.floor = 1e-12 * pressure_scale(flow);  // round-off of the pressure itself
