@@ -1,7 +1,7 @@
 // BiCGStab with right preconditioning (van der Vorst 1992) for any operator: the residual that it watches is the true one.
 //   p = r + beta (p - omega v), v = A M p, alpha = rho / (r0.v), s = r - alpha v, t = A M s, omega = t.s / t.t, x += M (alpha p + omega s)
-// A breakdown (rho or omega vanish against the residual) starts anew from the residual at hand. Results do not depend on the number of
-// threads; nothing is allocated after the first solve of a size.
+// Where s is small enough already, half an iteration is the last. A breakdown (rho or omega vanish against the residual) starts anew from
+// the residual at hand. Results do not depend on the number of threads; nothing is allocated after the first solve of a size.
 #pragma once
 #include <cmath>
 
@@ -12,6 +12,8 @@ namespace freshet::linear {
 struct BiCgStabOptions {
   double tolerance = 1e-8;   // of |r| / |b|
   double floor = 0;          // |r| that is good enough whatever b is
+  double enough = 0;         // |r| that is good enough too, but never more than `loosest` |b|
+  double loosest = 1e-4;
   int max_iterations = 500;
 };
 
@@ -32,7 +34,7 @@ class BiCgStab {
     multiply(x, r_);
     const double bb = dot(sums_, n, b, b);
     double rr = subtract_from(sums_, n, b, r_);
-    const double goal2 = std::fmax(options.tolerance * options.tolerance * bb, options.floor * options.floor);
+    const double goal2 = squared_goal(options, bb);
     BiCgStabReport report;
     double rho = 0, alpha = 0, omega = 0;
     for (bool fresh = true; rr > goal2 && report.iterations < options.max_iterations; ++report.iterations) {
@@ -42,7 +44,12 @@ class BiCgStab {
       precondition(p_, mp_);
       multiply(mp_, v_);
       alpha = rho / dot(sums_, n, r0_, v_);
-      add(n, -alpha, v_, r_);  // r is s now
+      rr = step_along(n, alpha);  // r is s now
+      if (rr <= goal2) {
+        add(n, alpha, mp_, x);
+        ++report.iterations;
+        break;
+      }
       precondition(r_, ms_);
       multiply(ms_, t_);
       const auto ts_tt = dots(sums_, n, t_, r_, t_);
@@ -72,6 +79,15 @@ class BiCgStab {
         });
   }
 
+  // r -= alpha v; returns r . r
+  double step_along(int n, double alpha) {
+    const Vector r = r_, v = v_;
+    return sums_.sum<1>("bicgstab::step_along", n, KOKKOS_LAMBDA(int i) {
+      r(i) -= alpha * v(i);
+      return Kokkos::Array<double, 1>{{r(i) * r(i)}};
+    })[0];
+  }
+
   // x += alpha M p + omega M s, r := s - omega t; returns r . r
   double advance(int n, const Vector& x, double alpha, double omega) {
     const Vector r = r_, t = t_, mp = mp_, ms = ms_;
@@ -84,6 +100,12 @@ class BiCgStab {
 
  private:
   static constexpr double breakdown = 1e-12;  // of |r|^2
+
+  static double squared_goal(const BiCgStabOptions& options, double bb) {
+    const double b = std::sqrt(bb), enough = std::fmin(options.enough, options.loosest * b);
+    const double goal = std::fmax(std::fmax(options.tolerance * b, options.floor), enough);
+    return goal * goal;
+  }
 
   Vector r_, r0_, p_, v_, t_, mp_, ms_;
   OrderedSums sums_;
