@@ -94,10 +94,10 @@ struct Areas {
 
   KOKKOS_FUNCTION void operator()(int s) const {
     const Lanes me = g.pairs(s);
-    const Lane omega = me.load(g.omega), per = 1.0 / me.load(g.moment);
+    const Lane omega = me.load(g.omega), per = 1.0 / (me.load(g.moment) + least_moment);
     g.pairs.for_each(s, [&](int e, PairIndex j) {
       const Lane slope = PairView::load(g.weight, e), other = gather(g.omega.data(), j);
-      PairView::store(g.area, e, together(omega * other) * slope * together(per + 1.0 / gather(g.moment.data(), j)));
+      PairView::store(g.area, e, together(omega * other) * slope * together(per + 1.0 / (gather(g.moment.data(), j) + least_moment)));
       PairView::store(g.weight, e, other * slope);
     });
   }
@@ -162,11 +162,12 @@ template <int D>
 Geometry<D> measure_geometry(int particles, const AnyKernel<D>& kernel, const GeometryRequest<D>& request) {
   Pairs pairs;
   const PairRequest<D> paired{request.rows, request.x, request.h, support_of<D>(kernel)};
-  const Images<D> images = list_wall_pairs<D>(particles, paired, request.walls, pairs);
+  ImageLists<D> lists;
+  list_wall_pairs<D>(particles, paired, request.walls, pairs, lists);
   const auto field = [&](const std::string& label) { return Field<double>(label, static_cast<size_t>(particles) + lanes); };
   Geometry<D> g{pairs.view(), pairs.template vector_coefficient<D>("sisph.n"), pairs.coefficient("sisph.distance"),
-                pairs.coefficient("sisph.weight"), pairs.coefficient("sisph.area"), images,
-                place_images<D>(particles, paired, request.walls, images), field("sisph.omega"),
+                pairs.coefficient("sisph.weight"), pairs.coefficient("sisph.area"), lists.images,
+                place_images<D>(particles, paired, request.walls, lists), field("sisph.omega"),
                 field("sisph.moment"), field("sisph.free"), sym_field<D>("sisph.inverse", static_cast<size_t>(particles) + lanes), {}};
   list_free_slices(g, request.held);
   const double h = request.h.extent(0) > 0 ? on_host(Kokkos::subview(request.h, std::make_pair(0, 1)))(0) : request.spacing;
