@@ -65,7 +65,8 @@ void MovingWater<D>::make_room() {
   }
   const int wanted = g_.images.slots(), had = end_.x.extent_int(0) - lanes;
   if (had >= wanted) return;
-  for (VecField<double, D>* v : {&mixed_, &slope_, &end_, &g_.x}) make_longer(*v, wanted + g_.images.count / 4);
+  for (VecField<double, D>* v : {&mixed_, &slope_, &end_, &g_.x, &gradient_.u}) make_longer(*v, wanted + g_.images.count / 4);
+  if (D == 2) make_longer(gradient_.v, wanted + g_.images.count / 4);
 }
 
 // Pairs that may be within each other's support as long as they approach by less than the skin [m].
@@ -188,6 +189,7 @@ MovingReport MovingWater<D>::attempt(const Swarm<D>& now, const BedSpline<D>* be
     solve_increment(now, dt, report);
     if (!report.solved) return report;
     correct(now, dt);
+    if (pass + 1 == options_.picard) even_out(dt);
     report.jump = find_jump(end_);
     report.least_depth = find_least_depth();
     if (!report.holds()) return report;

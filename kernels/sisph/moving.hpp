@@ -7,6 +7,7 @@
 // is a third difference (Rhie and Chow's; in SPH Antuono et al. 2010): it vanishes for any plane surface on any particles, and on a lattice
 // it makes what div grad does not see of short waves part of the matrix. Without it v^{n+1} keeps (1 - (k_div grad / k)^2) of what grad eta^n
 // pushes such waves, more the longer the step, and particles in disorder have modes that grow. No closure is needed.
+// Third differences of v^{n+1} are taken from it: waves between neighbours that neither div nor grad sees pair the particles up.
 #pragma once
 #include <optional>
 
@@ -15,6 +16,7 @@
 #include "kernels/linear/particle_mesh.hpp"
 #include "kernels/sisph/followers.hpp"
 #include "kernels/sisph/geometry.hpp"
+#include "kernels/sisph/gradient.hpp"
 #include "kernels/sisph/paths.hpp"
 
 namespace freshet::sisph {
@@ -86,6 +88,7 @@ class MovingWater {
   void lay_mesh(double stiffness);
   linear::CgReport solve_linear(const linear::CgOptions& options, double stiffness);
   void correct(const Swarm<D>& now, double dt);
+  void even_out(double dt);
   double find_jump(const VecField<double, D>& v);
   double find_least_depth();
 
@@ -111,6 +114,7 @@ class MovingWater {
   double scale_ = 0;             // of the first right-hand side of the step
   VecField<double, D> listed_;  // places where pairs were listed, images included
   VecField<double, D> mixed_, slope_, end_;  // v_th, grad eta_th, v^{n+1}
+  VelocityGradient<D> gradient_;             // of v^{n+1}
   Field<double> a_;                          // per pair
   Field<double> inertia_, rise_, last_, level_, change_, correction_;  // last: H^{n+1} so far; level: eta_th; change: d eta so far
   Field<double> right_, diagonal_, inverse_, zero_;
