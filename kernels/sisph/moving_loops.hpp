@@ -102,26 +102,29 @@ KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 2> along(const VelocityGradient<2>& f, con
   return {dot(me.load(f.u) + gather(f.u, j), n), dot(me.load(f.v) + gather(f.v, j), n)};
 }
 
-// v + share (|c| dt / dx, 1 at most) dx_i^2 / omega_i sum_j A_ij / d_ij [v_j - v_i - d_ij (grad v_i + grad v_j) n_ij / 2], dx_i^D = omega_i.
+// v + share min(1, sharp |r| dt / dx) r,   r_i = dx_i^2 / omega_i sum_j A_ij / d_ij [v_j - v_i - d_ij (grad v_i + grad v_j) n_ij / 2],
+// dx_i^D = omega_i: what moves neighbours against each other decays before it has moved them a spacing / sharp or so, and smooth
+// velocities hardly feel it.
 template <int D>
 struct Even {
   Geometry<D> g;
-  Field<double> depth;
   VecField<double, D> v, even;
   VelocityGradient<D> gradient;
-  double gravity, courant;  // m/s2; dt / dx, s/m
+  double per_speed;  // dt / dx, s/m
 
   KOKKOS_FUNCTION void operator()(int s) const {
     constexpr double share = 0.3;  // takes two thirds of the shortest waves on a lattice
+    constexpr double sharp = 10;
     const Lanes me = g.pairs(s);
     const Vec<Lane, D> vi = me.load(v);
-    const Lane omega = me.load(g.omega), waves = smaller(courant * root(gravity * me.load(depth)), Lane(1.0));
+    const Lane omega = me.load(g.omega), scale = free_lanes(g, me) * size2(omega, Vec<double, D>{}) / omega;
     Vec<Lane, D> sum;
     g.pairs.for_each(s, [&](int e, PairIndex j) {
       const Lane d = PairView::load(g.distance, e), w = gather(g.free.data(), j) * PairView::load(g.area, e) / d;
       sum += w * (gather(v, j) - vi - (0.5 * d) * along(gradient, me, j, PairView::load(g.n, e)));
     });
-    me.store(even, vi + (share * free_lanes(g, me) * waves * size2(omega, Vec<double, D>{}) / omega) * sum);
+    const Vec<Lane, D> rough = scale * sum;
+    me.store(even, vi + (share * smaller(sharp * per_speed * root(dot(rough, rough)), Lane(1.0))) * rough);
   }
 };
 

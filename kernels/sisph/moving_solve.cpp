@@ -87,12 +87,12 @@ void MovingWater<D>::correct(const Swarm<D>& now, double dt) {
   followers_.follow(end_);
 }
 
-// Takes from v^{n+1} the waves between neighbours that neither div nor grad sees: they would stay for good and pair the particles up.
+// Takes from v^{n+1} the waves between neighbours that neither div nor grad sees: they would stay for good and pair particles up.
 template <int D>
 void MovingWater<D>::even_out(double dt) {
   velocity_gradient<D>(g_, g_.slices, {last_, zero_, end_}, gradient_);
   Kokkos::parallel_for("sisph::even_out", Range(0, g_.slices.count),
-                       Even<D>{g_, last_, end_, mixed_, gradient_, options_.gravity, dt / options_.spacing});
+                       Even<D>{g_, end_, mixed_, gradient_, dt / options_.spacing});
   std::swap(end_, mixed_);
   followers_.follow(end_);
 }
