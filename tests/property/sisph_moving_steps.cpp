@@ -69,18 +69,18 @@ TEST_CASE("sisph moving: a step that moves neighbours too far is taken in parts"
   flow.step(0.3);
   REQUIRE(flow.method->notes().size() == 1);
   CHECK(flow.method->notes()[0].find("tried again") != std::string::npos);
-  CHECK(flow.method->stable_dt() < 0.1);  // what did not hold is not tried again
+  CHECK(flow.method->stable_dt() < 0.15);  // what did not hold is not tried again
   CHECK(highest(flow) < 0.5);
 }
 
 TEST_CASE("sisph moving: a surface that does not settle ends the run") {
   Scene scene = hump(0.1);
   scene.sisph.cg.most = 1;
-  scene.sisph.cg.tolerance = 1e-14;
+  scene.sisph.courant = 1000;  // a 4096th of it still is a step that one iteration does not solve
   Flow flow(scene);
   const std::vector<double> x = flow.by_id("x"), depth = flow.by_id("depth");
   try {
-    flow.step(0.1);
+    flow.step(flow.method->stable_dt());
     FAIL("nothing was thrown");
   } catch (const Diverged& why) {
     CHECK(why.exit() == Exit::diverged);
