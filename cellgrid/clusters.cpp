@@ -3,6 +3,7 @@
 #include <type_traits>
 
 #include "cellgrid/balanced.hpp"
+#include "cellgrid/box.hpp"
 
 namespace freshet {
 
@@ -32,15 +33,6 @@ void ClusterSet::cut(const Rows& rows) {
 }
 
 namespace {
-
-// The axis-aligned box of a cluster's lanes.
-struct Box {
-  double xlo, xhi, ylo, yhi;
-};
-KOKKOS_FORCEINLINE_FUNCTION Box box_of(const Vec<Lane, 1>& x) { return {smallest(x.x), largest(x.x), 0.0, 0.0}; }
-KOKKOS_FORCEINLINE_FUNCTION Box box_of(const Vec<Lane, 2>& x) {
-  return {smallest(x.x), largest(x.x), smallest(x.y), largest(x.y)};
-}
 
 // Fills one cluster's slab; what does not fit is counted but not stored. Returns the full length.
 template <int D>

@@ -1,5 +1,8 @@
 #include "kernels/walls.hpp"
 
+#include "cellgrid/balanced.hpp"
+#include "cellgrid/box.hpp"
+
 namespace freshet {
 namespace {
 
@@ -73,9 +76,49 @@ WallView<D> Walls<D>::view() const {
   return view;
 }
 
+namespace {
+
+// The largest h [m] of a particle and of the neighbours that reach it: their images stand no nearer than they do themselves.
+// Looked for where walls may be within that reach.
 template <int D>
-void Walls<D>::find(const ClusterSet& clusters, const VecField<double, D>& x, const Field<double>& h, double margin) {
-  near_.build<D>(clusters, {x, h, order_.rows(), view().x, points_.real("h"), reach_, margin});
+struct FeltLength {
+  ClusterSet clusters;
+  NeighbourView near;
+  VecField<double, D> x;
+  Field<double> h, felt;
+  Rows water, walls;
+  double reach;  // x h
+
+  KOKKOS_INLINE_FUNCTION bool walls_in_reach(const Box& b) const {
+    return walls.largest_h(b.xlo, b.xhi, b.ylo, b.yhi) > 0 || walls.support < reach * water.largest_h(b.xlo, b.xhi, b.ylo, b.yhi);
+  }
+  KOKKOS_INLINE_FUNCTION void operator()(int c) const {
+    const Lanes me = clusters(c);
+    const Vec<Lane, D> here = me.load(x);
+    Lane longest = me.load(h);
+    if (walls_in_reach(box_of(here)))
+      near.for_each(c, [&](int j) {
+        const Vec<Lane, D> d = here - broadcast(at(x, j));
+        const Lane theirs = h(j), limit = reach * theirs;
+        longest = larger_where(dot(d, d) < limit * limit, longest, theirs);
+      });
+    me.store(felt, longest);
+  }
+};
+
+}  // namespace
+
+template <int D>
+void Walls<D>::find(const ClusterSet& clusters, const ListRequest<D>& water, const NeighbourView& near) {
+  Field<double> h = water.h;
+  if (kind_ == WallKind::mirror) {
+    if (felt_h_.extent(0) < h.extent(0)) felt_h_ = Field<double>(Kokkos::ViewAllocateWithoutInitializing("walls.felt_h"), h.extent(0));
+    const double reach = reach_ * (1 + water.margin);
+    Kokkos::parallel_for("walls::felt_h", balanced(clusters.size()),
+                         FeltLength<D>{clusters, near, water.x, h, felt_h_, water.source_rows, order_.rows(), reach});
+    h = felt_h_;
+  }
+  near_.build<D>(clusters, {water.x, h, order_.rows(), view().x, points_.real("h"), reach_, water.margin});
 }
 
 namespace {

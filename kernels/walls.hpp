@@ -229,8 +229,9 @@ class Walls {
   // inside: a point of the water, which tells the side of a 1-D wall. support: of the kernel, in units of h.
   Walls(const std::vector<WallLine>& lines, const WallOptions& options, const std::array<double, 2>& inside, double support);
 
-  // Lists the wall points within reach of each cluster for h (1 + margin).
-  void find(const ClusterSet& clusters, const VecField<double, D>& x, const Field<double>& h, double margin);
+  // Lists the wall points within reach of each cluster for h (1 + margin); of mirrors also those behind which images of larger
+  // neighbours reach further than the particle's own h. near: what was listed of the same water.
+  void find(const ClusterSet& clusters, const ListRequest<D>& water, const NeighbourView& near);
 
   // Puts particles that crossed a wall back: position and normal velocity reflected. clusters: those of the last find();
   // only particles that were near a wall then are looked at, since none moves further than a fraction of h in a step.
@@ -245,6 +246,7 @@ class Walls {
   FieldSet points_;
   RowOrder order_;
   NeighbourList near_;
+  Field<double> felt_h_;  // m, mirror: the largest h of a particle and of those that reach it
   WallKind kind_;
   Stretch stretch_;
   double reach_;  // x h, how far wall points count

@@ -68,10 +68,13 @@ class Water {
     order_.sort(fields_);
     clusters_.cut(order_.rows());
   }
-  void list() {
+  ListRequest<D> listing() const {
     const auto p = bind();
-    order_.measure_reach(fields_, p.h, 2 * (1 + margin));
-    neighbours_.build<D>(clusters_, {p.x, p.h, order_.rows(), p.x, p.h, 2.0, margin});
+    return {p.x, p.h, order_.rows(), p.x, p.h, 2.0, margin};
+  }
+  void list() {
+    order_.measure_reach(fields_, bind().h, 2 * (1 + margin));
+    neighbours_.build<D>(clusters_, listing());
   }
   swe::DensityReport density(double tolerance = 1e-5) {
     swe::DensityOptions options{};
@@ -99,7 +102,7 @@ class Water {
         });
   }
   double entries() const { return static_cast<double>(pairs_.entries()) * lanes; }
-  void find_walls() { walls_->find(clusters_, bind().x, bind().h, margin); }
+  void find_walls() { walls_->find(clusters_, listing(), neighbours_.view()); }
   void reflect() { walls_->reflect(clusters_, bind().x, bind().v, bind().v_pred); }
 
   // ---- What passes need -------------------------------------------------------------------------------------------------

@@ -4,6 +4,8 @@ namespace freshet::fpm {
 namespace {
 
 constexpr double equation_weight = 100;  // results do not depend on it between 1 and 1e8
+constexpr double even = 1.5;              // supports that differ by less are preconditioned on a mesh
+constexpr double least_part = 0.01;       // of h^2: rows whose Laplacian counts for less are not looked at closer
 
 template <class V, int D>
 KOKKOS_FORCEINLINE_FUNCTION Terms<V, D> laplace_row() {
@@ -22,7 +24,9 @@ struct AssembleRows {
   Neighbourhood<D> around;
   PoissonPlaces<D> places;
   linear::ClusterMatrix matrix;
-  Field<double> per_source, per_flux;
+  Field<double> per_source, per_flux, given;
+  linear::MeshWeights mesh;
+  bool on_mesh;
 
   KOKKOS_INLINE_FUNCTION Lane where(const Lanes& me, int row) const {
     Lane yes{0.0};
@@ -43,10 +47,23 @@ struct AssembleRows {
     me.store(per_source, equation_weight * h * h * dot(r_p, beta));
     me.store(per_flux, equation_weight * h * dot(r_b, beta));
     int k = 0;
-    around.for_each(c, [&](int, const Terms<Lane, D>& m, const Lane& w) {
-      matrix.set(c, k++, -w * dot(m, beta));
+    Lane held{0.0};
+    around.for_each(c, [&](int j, const Terms<Lane, D>& m, const Lane& w) {
+      const Lane share = w * dot(m, beta);
+      matrix.set(c, k++, -share);
+      held += share * given(j);
     });
-    matrix.round(c);
+    if (on_mesh) weigh(me, has_flux, free, h, equation_weight * dot(r_p, beta), held);
+    else matrix.round(c);
+  }
+
+  // Row i is about per_laplacian h^2 lap; a wall's point stands for half a cell.
+  KOKKOS_INLINE_FUNCTION void weigh(const Lanes& me, const Lane& has_flux, const Lane& free, const Lane& h, const Lane& per_laplacian,
+                                    const Lane& held) const {
+    const Lane part = 1.0 - 0.5 * has_flux;
+    me.store(mesh.area, part * h * h);
+    me.store(mesh.weight, free * part / larger(Lane(least_part), larger(per_laplacian, -per_laplacian)));
+    me.store(mesh.held, held);
   }
 };
 
@@ -55,9 +72,28 @@ struct AssembleRows {
 template <int D>
 void Poisson<D>::reserve() {
   const int n = around_.points;
-  for (auto* v : {&per_source_, &per_flux_, &b_})
+  for (auto* v : {&per_source_, &per_flux_, &b_, &weights_.area, &weights_.weight, &weights_.held, &given_})
     if (v->extent_int(0) < n + lanes) *v = Field<double>("fpm.poisson", static_cast<size_t>(n + n / 2 + lanes));
   if (free_.extent_int(0) < n) free_ = Field<int>("fpm.free", static_cast<size_t>(n + n / 2));
+}
+
+// Which values are given, how many are not, and whether a mesh suits the points; returns the longest support.
+template <int D>
+double Poisson<D>::look_at_points() {
+  const Field<int> free = free_, row = places_.row;
+  const Field<double> h = around_.h, given = given_;
+  double longest = 0, shortest = 0;
+  Kokkos::parallel_reduce("fpm::unknowns", Range(0, around_.points), KOKKOS_LAMBDA(int i, int& unknown, double& most, double& least) {
+        free(i) = row(i) != row_value;
+        given(i) = 1 - free(i);
+        unknown += free(i);
+        most = larger(most, h(i));
+        least = smaller(least, h(i));
+      }, unknowns_, Kokkos::Max<double>(longest), Kokkos::Min<double>(shortest));
+  singular_ = unknowns_ == around_.points;
+  weights_.singular = singular_;
+  on_mesh_ = longest < even * shortest;
+  return longest;
 }
 
 template <int D>
@@ -66,19 +102,24 @@ void Poisson<D>::assemble(const Neighbourhood<D>& around, const Rows& rows, cons
   around_ = around;
   places_ = places;
   reserve();
+  const double reach = look_at_points();
+  on_mesh_ = on_mesh_ && linear::PointMesh::suits(rows, around.points);
   matrix_.lay_out(around.clusters, around.near, around.points);
-  matrix_.lay_out_rough();
-  const Field<int> free = free_, row = places.row;
-  const Field<double> h = around.h;
-  double reach = 0;
-  Kokkos::parallel_reduce("fpm::unknowns", Range(0, around.points), KOKKOS_LAMBDA(int i, int& unknown, double& longest) {
-        free(i) = row(i) != row_value;
-        unknown += free(i);
-        longest = larger(longest, h(i));
-      }, unknowns_, Kokkos::Max<double>(reach));
-  singular_ = unknowns_ == around.points;
-  Kokkos::parallel_for("fpm::rows", Range(0, around.clusters.size()), AssembleRows<D>{around, places, matrix_, per_source_, per_flux_});
-  multigrid_.build(matrix_, free_, {rows, reach, around.period.length.x > 0, around.period.length.y > 0}, singular_);
+  if (!on_mesh_) matrix_.lay_out_rough();
+  Kokkos::parallel_for("fpm::rows", Range(0, around.clusters.size()),
+                       AssembleRows<D>{around, places, matrix_, per_source_, per_flux_, given_, weights_, on_mesh_});
+  if (on_mesh_)
+    mesh_.build(rows, around.x, around.points, around.period, weights_);
+  else
+    multigrid_.build(matrix_, free_, {rows, reach, around.period.length.x > 0, around.period.length.y > 0}, singular_);
+}
+
+template <int D>
+void Poisson<D>::precondition(const Field<double>& r, const Field<double>& z) {
+  if (on_mesh_)
+    mesh_(r, z);
+  else
+    multigrid_(r, z);
 }
 
 template <int D>
@@ -111,7 +152,7 @@ PoissonReport Poisson<D>::solve(const PoissonData& data, const Field<double>& ps
   report.singular = singular_;
   const int n = matrix_.rows;
   report.solve = krylov_.solve(n, [this](const auto& x, const auto& y) { multiply(x, y); },
-                               [this](const auto& r, const auto& z) { multigrid_(r, z); }, b_, psi, options);
+                               [this](const auto& r, const auto& z) { precondition(r, z); }, b_, psi, options);
   if (!singular_) return report;
   const double mean = sums_.sum<1>("fpm::mean", n, KOKKOS_LAMBDA(int i) { return Kokkos::Array<double, 1>{{psi(i)}}; })[0] / n;
   Kokkos::parallel_for("fpm::take_mean", Range(0, n), KOKKOS_LAMBDA(int i) { psi(i) -= mean; });

@@ -3,11 +3,12 @@
 //   G = sum w m m^T + 100 r_p r_p^T + 100 r_b r_b^T,  G beta = e1,  r_p = [0, 0, 0, 1, 0, 1],  r_b = [0, nx, ny, 0, 0, 0]
 //   psi_i - sum_j w_j (m_j . beta) psi_j = 100 (r_p . beta) h^2 f + 100 (r_b . beta) h g
 // Where psi is given the row is psi_i = that. Without any such point constants are free: the system is A + 1 1^T / n, which has the
-// bordered system's solution, and the mean is taken off. Solved by BiCGStab with bin multigrid.
+// bordered system's solution, and the mean is taken off. Solved by BiCGStab, preconditioned on a mesh, or where supports differ by bins.
 #pragma once
 #include "kernels/fpm/neighbours.hpp"
 #include "kernels/linear/bicgstab.hpp"
 #include "kernels/linear/bin_multigrid.hpp"
+#include "kernels/linear/point_mesh.hpp"
 
 namespace freshet::fpm {
 
@@ -35,8 +36,6 @@ struct PoissonReport {
 template <int D>
 class Poisson {
  public:
-  explicit Poisson(const linear::MultigridOptions& multigrid = {}) : multigrid_(multigrid) {}
-
   // The rows, and the levels of the preconditioner. rows: the order of the points.
   void assemble(const Neighbourhood<D>& around, const Rows& rows, const PoissonPlaces<D>& places);
 
@@ -45,10 +44,14 @@ class Poisson {
 
   bool singular() const { return singular_; }
   const linear::ClusterMatrix& matrix() const { return matrix_; }
-  linear::BinMultigrid& multigrid() { return multigrid_; }
+  bool on_mesh() const { return on_mesh_; }
+  // m2, of each point: what its row has per unit of source.
+  const Field<double>& per_source() const { return per_source_; }
 
   void multiply(const Field<double>& x, const Field<double>& y);
+  void precondition(const Field<double>& r, const Field<double>& z);
   void set_right_side(const PoissonData& data, const Field<double>& psi);
+  double look_at_points();
 
  private:
   void reserve();
@@ -56,13 +59,17 @@ class Poisson {
   Neighbourhood<D> around_;
   PoissonPlaces<D> places_;
   linear::ClusterMatrix matrix_;
+  linear::PointMesh mesh_;
   linear::BinMultigrid multigrid_;
   linear::BiCgStab krylov_;
   Field<double> per_source_, per_flux_, b_;
+  linear::MeshWeights weights_;
+  Field<double> given_;  // 1 where psi is given
   Field<int> free_;
   OrderedSums sums_;
   int unknowns_ = 0;
   bool singular_ = false;
+  bool on_mesh_ = true;
 };
 
 }  // namespace freshet::fpm

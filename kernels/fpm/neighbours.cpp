@@ -1,13 +1,9 @@
 #include "kernels/fpm/neighbours.hpp"
 
+#include "cellgrid/box.hpp"
+
 namespace freshet::fpm {
 namespace {
-
-// The rectangle around a cluster's points; in a periodic domain also moved by whole periods.
-struct Box {
-  double xlo, xhi, ylo, yhi;  // m
-};
-KOKKOS_FORCEINLINE_FUNCTION Box box_of(const Vec<Lane, 2>& x) { return {smallest(x.x), largest(x.x), smallest(x.y), largest(x.y)}; }
 
 // The first and last whole period by which the range low..high widened by reach must move to meet all of the domain that it covers.
 struct Turns {

@@ -24,7 +24,7 @@ struct FlowRule {
   Vec<double, 2> force{};     // m/s2
   Scheme scheme = Scheme::filtered;
   bool slip = true;           // walls; false: they hold the tangential velocity too
-  double tolerance = 1e-9;    // of the pressure equation
+  double tolerance = 1e-9;    // of the pressure equation: of its right side, or 10 x this of the flow's velocities
   bool implicit = false;      // viscosity
 };
 
@@ -82,6 +82,7 @@ class Projection {
   void settle(const Flow& flow);
   void smooth_edges(const Flow& flow);
   double pressure_scale(const Flow& flow);
+  double residual_of_speed(const Neighbourhood<2>& around, const Flow& flow, const Backward& time);
 
  private:
   FlowRule rule_;

@@ -12,6 +12,8 @@ namespace freshet::linear {
 struct BiCgStabOptions {
   double tolerance = 1e-8;   // of |r| / |b|
   double floor = 0;          // |r| that is good enough whatever b is
+  double enough = 0;         // |r| that is good enough too, but never more than `loosest` |b|
+  double loosest = 1e-4;
   int max_iterations = 500;
 };
 
@@ -32,7 +34,7 @@ class BiCgStab {
     multiply(x, r_);
     const double bb = dot(sums_, n, b, b);
     double rr = subtract_from(sums_, n, b, r_);
-    const double goal2 = std::fmax(options.tolerance * options.tolerance * bb, options.floor * options.floor);
+    const double goal2 = squared_goal(options, bb);
     BiCgStabReport report;
     double rho = 0, alpha = 0, omega = 0;
     for (bool fresh = true; rr > goal2 && report.iterations < options.max_iterations; ++report.iterations) {
@@ -84,6 +86,12 @@ class BiCgStab {
 
  private:
   static constexpr double breakdown = 1e-12;  // of |r|^2
+
+  static double squared_goal(const BiCgStabOptions& options, double bb) {
+    const double b = std::sqrt(bb), enough = std::fmin(options.enough, options.loosest * b);
+    const double goal = std::fmax(std::fmax(options.tolerance * b, options.floor), enough);
+    return goal * goal;
+  }
 
   Vector r_, r0_, p_, v_, t_, mp_, ms_;
   OrderedSums sums_;

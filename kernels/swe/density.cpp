@@ -37,7 +37,8 @@ struct SolveDensity {
   KOKKOS_INLINE_FUNCTION double before_last_step() const { return larger(options.tolerance, 0.07 * root(options.tolerance)); }
 
   // Newton on psi = rho - sum m W(h(rho)) (2.8)-(2.10), its factor held within [1/2, 2]. Where h is at a bound it does not
-  // follow rho: alpha = 1 and the root is the sum itself. "Bounded" is decided here, once, by the last evaluation.
+  // follow rho: alpha = 1 and the root is the sum itself. "Bounded" is decided here, once, by the last evaluation. A particle
+  // that is settled stays so whatever the others of its cluster do: results do not depend on the number of lanes.
   KOKKOS_INLINE_FUNCTION void operator()(int c, double& evaluations, int& most, int& outgrown, int& capped, int& floored) const {
     const Particles<D>& p = sums.p;
     const Lanes me = sums.clusters(c);
@@ -50,15 +51,16 @@ struct SolveDensity {
     const Lane imposed_rho = rho;
     Sums<D> s = options.gradient ? sums.template sum<Want::gradient>(c, i, rho, h) : sums.template sum<Want::rate>(c, i, rho, h);
     const Sums<D> first = s;  // the gradient and the rate need no more than the predicted h
-    Lane alpha, bounded, own;
+    Lane alpha{1.0}, bounded{0.0}, own{0.0};
+    auto open = first_lanes(me.count);  // not settled yet
     int n = 1;
     for (int turn = 1;; ++turn) {
       const Lane total = calibrated * (s.density + s.wall.density);
       const Lane moment = calibrated * (s.moment * power<D>(1.0 / h) / h + s.wall.moment);
       const Lane wanted = smoothing_length<D>(kh, rho);
-      bounded = select((low < wanted) & (wanted < high), Lane(0.0), Lane(1.0));
-      alpha = moment / (rho * double(D));
-      own = sums.walls.follows_depth() * calibrated * s.wall.density / rho;
+      bounded = select(open, select((low < wanted) & (wanted < high), Lane(0.0), Lane(1.0)), bounded);
+      alpha = select(open, moment / (rho * double(D)), alpha);
+      own = select(open, sums.walls.follows_depth() * calibrated * s.wall.density / rho, own);
       const Lane slope = rho - total + rho * (alpha - own);
       // Held by the list like by a bound: then it ends as outgrown, and the list is made again.
       const Lane held = select(smaller(high, longest_listed) < wanted, Lane(1.0), bounded);
@@ -66,11 +68,13 @@ struct SolveDensity {
       const Lane sum_itself = (total / rho - own) / larger(1.0 - own, Lane(0.1));
       const Lane factor = select(Lane(0.5) < held, sum_itself, newton);
       const Lane residual = free * larger(rho - total, total - rho) / rho;
-      rho = select(Lane(0.5) < imposed, imposed_rho, rho * clamp(factor, Lane(0.5), Lane(2.0)));
+      const Lane stepped = select(Lane(0.5) < imposed, imposed_rho, rho * clamp(factor, Lane(0.5), Lane(2.0)));
+      rho = select(open, stepped, rho);
       const Lane found = smoothing_length<D>(kh, rho);
       const Lane bounded_then = select((low < found) & (found < high), Lane(0.0), Lane(1.0));
       const Lane enough = select(Lane(0.25) < size_of(bounded_then - bounded), Lane(options.tolerance), Lane(before_last_step()));
-      if (!any(enough < residual) || turn == most_turns) break;
+      open = open & (enough < residual);
+      if (!any(open) || turn == most_turns) break;
       const Lane next = clamp(smoothing_length<D>(kh, rho), low, smaller(high, longest_listed));
       if (!any((next < h) | (h < next)) && !sums.follow_depth(c)) continue;  // a fixed h: the sums are known
       h = next;

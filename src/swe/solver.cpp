@@ -98,8 +98,9 @@ template <int D>
 void Solver<D>::list_neighbours() {
   const Particles<D> p = bind();
   order_.measure_reach(particles_, p.h, support_ * (1 + margin_));
-  neighbours_.build<D>(clusters_, {p.x, p.h, order_.rows(), p.x, p.h, support_, margin_});
-  if (walls_) walls_->find(clusters_, p.x, p.h, margin_);
+  const ListRequest<D> water{p.x, p.h, order_.rows(), p.x, p.h, support_, margin_};
+  neighbours_.build<D>(clusters_, water);
+  if (walls_) walls_->find(clusters_, water, neighbours_.view());
 }
 
 // Density; where an h outgrew the list's margin, the list is made again with the h found.

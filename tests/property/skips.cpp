@@ -101,7 +101,7 @@ TEST_CASE("skips: launches come with the features that need them") {
 
   scene = drop();
   test::close_box(scene);
-  CHECK(extra_labels(scene) == Names{"walls::list", "walls::reflect"});
+  CHECK(extra_labels(scene) == Names{"walls::felt_h", "walls::list", "walls::reflect"});
 
   scene = drop();
   test::open_left(scene, freshet::OpenBoundary::Kind::wave, {{0}, {0.1}});

@@ -255,8 +255,9 @@ class Cloud {
   void list(double margin) {
     const swe::Particles<D> p = bind();
     order.measure_reach(fields, p.h, support() * (1 + margin));
-    neighbours.build<D>(clusters, {p.x, p.h, order.rows(), p.x, p.h, support(), margin});
-    if (walls) walls->find(clusters, p.x, p.h, margin);
+    const ListRequest<D> water{p.x, p.h, order.rows(), p.x, p.h, support(), margin};
+    neighbours.build<D>(clusters, water);
+    if (walls) walls->find(clusters, water, neighbours.view());
   }
 
   double spacing_;
