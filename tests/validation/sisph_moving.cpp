@@ -221,7 +221,7 @@ TEST_CASE("sisph moving: a standing wave over an uneven bed between walls", "[si
 
 TEST_CASE("sisph moving: uniform flow down a slope comes to the speed that friction allows", "[sisph]") {
   // v^2 = S0 H^(4/3) / n^2. From rest v = v0 tanh(g S0 t / v0), with both sides going along: the water is a block.
-  constexpr double slope = 0.01, n = 0.1, depth = 1;
+  constexpr double slope = 0.01, n = 0.5, depth = 1;  // rough, so that the water stays over the bed that the scene knows
   const double fastest = std::sqrt(slope) / n, end = 3 * fastest / (9.81 * slope);
   double before = 0;
   for (const int steps : {20, 40}) {
@@ -230,6 +230,7 @@ TEST_CASE("sisph moving: uniform flow down a slope comes to the speed that frict
     scene.water.depth = [](double, double) { return depth; };
     scene.manning = Manning(n);
     scene.sisph.cg.tolerance = 1e-12;
+    scene.sisph.picard = 8;  // two leave 4e-6 m near the sides, whose surface goes down with the bed
     scene.time_step = end / steps;
     Flow flow(scene);
     flow.run(end);
@@ -239,7 +240,7 @@ TEST_CASE("sisph moving: uniform flow down a slope comes to the speed that frict
       CHECK(flow.real("depth")(i) == Approx(depth).epsilon(1e-9));
     }
     CAPTURE(steps, error);
-    CHECK(error < 5e-4);
+    CHECK(error < 2e-3 * fastest);
     if (steps == 40) CHECK(before / error >= 1.7);
     before = error;
   }
