@@ -61,10 +61,17 @@ struct Holdings {
   KOKKOS_FORCEINLINE_FUNCTION Holding of(const Lanes& me) const {
     return with([&](const Field<double>& f) { return me.load(f); });
   }
-  KOKKOS_FORCEINLINE_FUNCTION Holding of(const PairIndex& j) const {
-    return with([&](const Field<double>& f) { return gather(f.data(), j); });
+  KOKKOS_FORCEINLINE_FUNCTION Holding of(const int* particles) const {
+    return with([&](const Field<double>& f) { return load_each(f.data(), particles); });
   }
 };
+
+// Values at the slots of an entry.
+using freshet::load_each;
+KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 1> load_each(const VecField<double, 1>& f, const int* slot) { return {load_each(f.x.data(), slot)}; }
+KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 2> load_each(const VecField<double, 2>& f, const int* slot) {
+  return {load_each(f.x.data(), slot), load_each(f.y.data(), slot)};
+}
 
 // What A_ij follows from; particles at rest have one smoothing length.
 template <int D>
@@ -89,15 +96,16 @@ struct RecomputedPairs {
     const Lane omega = me.load(at.omega), per = me.load(at.per_moment), inv_h(at.inv_h);
     const Holding mine = water.of(me);
     pairs.for_each(slice, [&](int e, PairIndex j) {
-      const PairShape<D> shape = pair_shape<D>(kernel, gather(at.x, j) - xi, inv_h);
-      const Lane open = pair_area(omega, gather(at.omega.data(), j), shape.slope, per, gather(at.per_moment.data(), j));
-      const Lane area = open * closing<D>(lambda, gather(at.lambda, j), shape.n);
-      pair(e, j, coefficient<drying, dragged>(stiffness, area, shape.distance, mine, water.of(j)));
+      const int *other = pairs.j.data() + PairView::at(e), *slot = pairs.slot.data() + PairView::at(e);
+      const PairShape<D> shape = pair_shape<D>(kernel, load_each(at.x, slot) - xi, inv_h);
+      const Lane open = pair_area(omega, load_each(at.omega.data(), other), shape.slope, per, load_each(at.per_moment.data(), other));
+      const Lane area = open * closing<D>(lambda, load_each(at.lambda, slot), shape.n);
+      pair(e, j, coefficient<drying, dragged>(stiffness, area, shape.distance, mine, water.of(other)));
     });
   }
   KOKKOS_FORCEINLINE_FUNCTION Lane weighted_sum(const PairView& pairs, int slice, const Field<double>& x) const {
     Lane sum(0.0);
-    for_each(pairs, slice, [&](int, PairIndex j, Lane a) { sum += a * gather(x.data(), j); });
+    for_each(pairs, slice, [&](int e, PairIndex, Lane a) { sum += a * load_each(x.data(), pairs.j.data() + PairView::at(e)); });
     return sum;
   }
 };

@@ -20,13 +20,13 @@ struct Start {
 
 namespace {
 
-void require(bool holds, const std::string& what) {
-  if (!holds) throw SceneError("the method \"sisph\" does not know " + what + " yet\n  help: use scene.method = \"sph-swe\"");
+void require(bool holds, const std::string& what, const std::string& remedy = "") {
+  if (!holds) throw SceneError("the method \"sisph\" does not know " + what + " yet\n  help: " + remedy + "use scene.method = \"sph-swe\"");
 }
 
 void require_known(const Scene& scene) {
   require(!scene.split && !scene.merge, "splitting and merging ([split], [merge])");
-  require(scene.water.start == freshet::Water::Start::cells, "any water.start but \"cells\"");
+  require(scene.water.start == freshet::Water::Start::cells, "any water.start but \"cells\"", "set water.start = \"cells\", or ");
   require_on_sides(scene);
 }
 
