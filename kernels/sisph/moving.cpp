@@ -147,7 +147,7 @@ template <int D>
 void MovingWater<D>::lay_mesh(double stiffness) {
   if (!mesh_) mesh_.emplace();
   if (mesh_mass_.extent(0) == 0) mesh_mass_ = scalar(g_.pairs.particles), mesh_depth_ = scalar(g_.pairs.particles);
-  if (!laid_) mesh_->lay(rows_, listed_);
+  if (!laid_) mesh_->lay(rows_, listed_, g_.pairs.particles);
   laid_ = true;
   const Geometry<D> g = g_;
   const Field<double> inertia = inertia_, mass = mesh_mass_, depth = mesh_depth_;
