@@ -37,20 +37,22 @@ SampledDepth sample_depth(const SortedWater<D>& water, const Vec<double, D>& pla
 }
 
 template <int D>
-double highest_wet_level(const SortedWater<D>& water, const Field<double>& level, const Vec<double, D>& place, double radius,
-                         double min_depth) {
-  double highest = -1e300;
-  for_each_near(water, place, radius, [&](int j) {
-    const Vec<double, D> d = at(water.x, j) - place;
-    if (water.depth(j) >= min_depth && dot(d, d) <= radius * radius)
-      highest = larger(highest, level.extent(0) > 0 ? level(j) : 0.0);
+WetLevels highest_wet_levels(const SortedWater<D>& water, const BedSpline<D>* bed, const Shore<D>& shore) {
+  WetLevels highest;
+  for_each_near(water, shore.place, shore.radius, [&](int j) {
+    const Vec<double, D> x = at(water.x, j), d = x - shore.place;
+    if (water.depth(j) < shore.min_depth || dot(d, d) > shore.radius * shore.radius) return;
+    const BedPoint<double, D> ground = bed ? bed->at(x) : BedPoint<double, D>{};
+    const double rise = shore.spacing * root(dot(ground.slope, ground.slope));
+    highest.bed = larger(highest.bed, ground.b);
+    highest.line = larger(highest.line, ground.b + smaller(water.depth(j), rise));
   });
   return highest;
 }
 
 template SampledDepth sample_depth(const SortedWater<1>&, const Vec<double, 1>&);
 template SampledDepth sample_depth(const SortedWater<2>&, const Vec<double, 2>&);
-template double highest_wet_level(const SortedWater<1>&, const Field<double>&, const Vec<double, 1>&, double, double);
-template double highest_wet_level(const SortedWater<2>&, const Field<double>&, const Vec<double, 2>&, double, double);
+template WetLevels highest_wet_levels(const SortedWater<1>&, const BedSpline<1>*, const Shore<1>&);
+template WetLevels highest_wet_levels(const SortedWater<2>&, const BedSpline<2>*, const Shore<2>&);
 
 }  // namespace freshet

@@ -2,7 +2,9 @@
 #pragma once
 #include <array>
 
+#include "kernels/bed_spline.hpp"
 #include "kernels/raster.hpp"
+#include "kernels/wet_levels.hpp"
 
 namespace freshet {
 
@@ -24,9 +26,16 @@ struct SampledDepth {
 template <int D>
 SampledDepth sample_depth(const SortedWater<D>& water, const Vec<double, D>& place);
 
-// Highest level [m] under water at least min_depth deep within radius of the place; -1e300 if none. No levels = a flat bed at 0.
+// Which water counts: at least min_depth [m] deep, within radius [m] of the place.
 template <int D>
-double highest_wet_level(const SortedWater<D>& water, const Field<double>& level, const Vec<double, D>& place, double radius,
-                         double min_depth);
+struct Shore {
+  Vec<double, D> place;
+  double radius, min_depth;
+  double spacing;  // m, of the particles
+};
+
+// The highest of it. No bed = flat, at 0.
+template <int D>
+WetLevels highest_wet_levels(const SortedWater<D>& water, const BedSpline<D>* bed, const Shore<D>& shore);
 
 }  // namespace freshet

@@ -1,4 +1,5 @@
-// perf_cg [particles]: the free-surface solver's parts from memory: triad, matrix product over stored pairs (SELL-W), a whole CG
+// perf_cg [particles]: the free-surface solver's parts from memory: triad, matrix product over stored pairs (SELL-W) and with
+// coefficients found anew, a whole CG
 // iteration with Jacobi and with the particle-mesh preconditioner; GB/s modelled, and as a share of the triad measured in the same
 // run. Then iterations and seconds of a solve to 1e-8 by celerity Courant number. Particles: a lattice moved by up to 0.2 dx.
 #include <cmath>
@@ -7,8 +8,8 @@
 
 #include "cellgrid/runtime.hpp"
 #include "kernels/linear/cg.hpp"
-#include "kernels/linear/pair_product.hpp"
 #include "kernels/linear/particle_mesh.hpp"
+#include "kernels/sisph/coefficients.hpp"
 #include "src/run/fastest.hpp"
 #include "src/run/peaks.hpp"
 
@@ -18,11 +19,13 @@ using namespace freshet;
 using linear::CgReport;
 using linear::Vector;
 
+constexpr double smoothing = 1.5;  // l / dx
+
 struct AllSlices {
   KOKKOS_FORCEINLINE_FUNCTION int operator()(int k) const { return k; }
 };
 
-// omega x_i + sum_j a_ij (x_i - x_j), a_ij = k omega^2 w_ij (1/s_i + 1/s_j), s_i = sum_j omega w_ij d_ij^2 / 2: water 1 m deep.
+// omega x_i + sum_j a_ij (x_i - x_j), a_ij = k A_ij / d_ij: the free surface's matrix (kernels/sisph/coefficients.hpp).
 class System {
  public:
   explicit System(int wanted) : side_(static_cast<int>(std::lround(std::sqrt(wanted)))), fields_(side_ * side_), order_(2, 1.0) {
@@ -30,12 +33,13 @@ class System {
     order_.sort(fields_);
     x_ = {fields_.real("x"), fields_.real("y")};
     order_.measure_reach(fields_, fields_.real("h"), 2.0);
-    pairs_.build<2>(size(), {order_.rows(), x_, fields_.real("h"), 2.0});
-    for (Vector* v : {&diagonal_, &inverse_, &mass_, &depth_, &right_, &found_, &result_})
-      *v = Vector("perf.vector", static_cast<size_t>(size()) + lanes);
-    a_ = pairs_.coefficient("perf.a");
-    linear::fill(size(), 1.0, mass_);
+    g_ = sisph::measure_geometry<2>(size(), kernel_, {order_.rows(), x_, fields_.real("h"), fields_.integer("held"), 1.0, 1.0});
+    const auto vector = [this] { return Vector("perf.vector", static_cast<size_t>(size()) + lanes); };
+    for (Vector* v : {&diagonal_, &inverse_, &depth_, &right_, &found_, &result_}) *v = vector();
+    a_ = Vector("perf.a", g_.pairs.j.extent(0));
     linear::fill(size(), 1.0, depth_);
+    places_ = {1 / smoothing, g_.x, {vector(), vector()}, g_.omega, vector()};
+    for (int i = 0; i < size(); ++i) places_.per_moment(i) = 1 / g_.moment(i);
     for (int i = 0; i < size(); ++i) {
       const double s = side_, along = x_.x(i) / s - 0.4, across = x_.y(i) / s - 0.5;
       right_(i) = std::exp(-30 * along * along - 20 * across * across) + 0.05 * std::sin(12.9898 * i);
@@ -45,35 +49,35 @@ class System {
   }
 
   int size() const { return fields_.size(); }
-  int entries() const { return pairs_.entries() * lanes; }
+  int entries() const { return g_.pairs.start(g_.pairs.slices()) * lanes; }
 
+  // Water 1 m deep.
   void set_courant(double courant) {
-    const double k = std::pow(0.55 * courant, 2);
-    const PairView view = pairs_.view();
-    Vector s("perf.s", static_cast<size_t>(size()));
-    const auto weight = [&](int i, int j, double& d2) {
-      const double dx = x_.x(j) - x_.x(i), dy = x_.y(j) - x_.y(i);
-      d2 = dx * dx + dy * dy;
-      return d2 > 0 ? std::pow(2 - std::sqrt(d2) / 1.5, 2) / std::sqrt(d2) : 0.0;
-    };
-    for (const bool moments : {true, false})
-      for (int i = 0; i < size(); ++i) {
-        double sum = 0, d2 = 0;
-        for (int e = view.start(i / lanes); e < view.start(i / lanes + 1); ++e) {
-          const int j = view.j(PairView::at(e, i % lanes));
-          const double w = weight(i, j, d2), a = moments ? 0.5 * w * d2 : k * w * (1 / s(i) + 1 / s(j));
-          if (!moments) a_(PairView::at(e, i % lanes)) = a;
-          sum += a;
+    stiffness_ = std::pow(0.55 * courant, 2);
+    for (int s = 0; s < g_.pairs.slices(); ++s)
+      for (int l = 0; l < g_.pairs(s).count; ++l) {
+        const int i = g_.pairs(s).particle(l);
+        double sum = g_.omega(i);
+        for (int e = g_.pairs.start(s); e < g_.pairs.start(s + 1); ++e) {
+          const size_t k = PairView::at(e, l);
+          sum += a_(k) = stiffness_ * g_.area(k) / g_.distance(k);
         }
-        if (moments) s(i) = sum;
-        else diagonal_(i) = 1 + sum, inverse_(i) = 1 / diagonal_(i);
+        diagonal_(i) = sum, inverse_(i) = 1 / sum;
       }
-    set_mesh(k);
+    set_mesh(stiffness_);
+  }
+
+  // sum_j a_ij x_j with coefficients from places and depths; the closure's multipliers are zero, which takes as long as others.
+  void multiply_anew() {
+    using Found = sisph::RecomputedPairs<2, CubicSpline<2>, false, false>;
+    const Found found{std::get<CubicSpline<2>>(kernel_), places_, {depth_, depth_, depth_, {}}, stiffness_};
+    (void)sums_.sum<1, 64>("perf::product_anew", g_.pairs.slices(),
+                           linear::PairProduct<AllSlices, Found>{g_.pairs, {}, found, diagonal_, g_.free, right_, result_});
   }
 
   double multiply(const Vector& x, const Vector& y) {
-    return sums_.sum<1, 64>("perf::product", pairs_.view().slices(),
-                            linear::PairProduct<AllSlices>{pairs_.view(), {}, a_, diagonal_, mass_, x, y})[0];
+    return sums_.sum<1, 64>("perf::product", g_.pairs.slices(),
+                            linear::PairProduct<AllSlices>{g_.pairs, {}, {a_}, diagonal_, g_.free, x, y})[0];
   }
   void multiply() { multiply(right_, result_); }
 
@@ -84,26 +88,29 @@ class System {
     return cg_.solve(a, linear::JacobiPlus<linear::ParticleMesh<2>>{inverse_, mesh_}, right_, found_, options);
   }
   void correct() { (void)mesh_(right_, result_); }
-  void set_mesh(double k) { mesh_.set(mass_, depth_, k); }
+  void set_mesh(double k) { mesh_.set(g_.omega, depth_, k); }
 
  private:
   void place() {
     const auto x = fields_.real("x", "m", Carry::sort), y = fields_.real("y", "m", Carry::sort), h = fields_.real("h", "m", Carry::sort);
-    const auto id = fields_.integer("id", "1", Carry::sort);
+    const auto id = fields_.integer("id", "1", Carry::sort), held = fields_.integer("held", "1", Carry::sort);
     unsigned long long state = 12345;
     const auto off = [&] {
       state = state * 6364136223846793005ull + 1442695040888963407ull;
       return 0.2 * (static_cast<double>(state >> 11) * 0x1p-52 - 1);
     };
-    for (int i = 0; i < size(); ++i) x(i) = i % side_ + off(), y(i) = i / side_ + off(), h(i) = 1.5, id(i) = i;
+    for (int i = 0; i < size(); ++i) x(i) = i % side_ + off(), y(i) = i / side_ + off(), h(i) = smoothing, id(i) = i, held(i) = 0;
   }
 
   int side_;
   FieldSet fields_;
   RowOrder order_;
   VecField<double, 2> x_;
-  Pairs pairs_;
-  Vector a_, diagonal_, inverse_, mass_, depth_, right_, found_, result_;
+  AnyKernel<2> kernel_ = make_kernel<2>(KernelName::cubic, smoothing, false);
+  sisph::Geometry<2> g_;
+  sisph::Places<2> places_;
+  double stiffness_ = 0;
+  Vector a_, diagonal_, inverse_, depth_, right_, found_, result_;
   linear::ParticleMesh<2> mesh_;
   linear::ConjugateGradients cg_;
   OrderedSums sums_;
@@ -123,6 +130,8 @@ void measure(int wanted) {
   const double product_bytes = 12.0 * s.entries() + 40 * n;
   const double product = fastest(20, [&] { s.multiply(); });
   print("product", product, n, product_bytes, triad);
+  const double anew_bytes = 4.0 * s.entries() + (40 + 56) * n;  // of the neighbours' seven values, which stay in the cache, once each
+  print("product, coefficients anew", fastest(5, [&] { s.multiply_anew(); }), n, anew_bytes, triad);
   constexpr int iterations = 10;
   const double plain = fastest(3, [&] { (void)s.solve(false, 1e-300, iterations); }) / iterations;
   print("CG iteration, Jacobi", plain, n, product_bytes + (24 + 72) * n, triad);  // p, z; x, r, z written, p, q, D read

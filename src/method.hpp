@@ -8,6 +8,7 @@
 
 #include "cellgrid/order.hpp"
 #include "cellgrid/work.hpp"
+#include "kernels/wet_levels.hpp"
 #include "src/scene/scene.hpp"
 
 namespace freshet {
@@ -78,8 +79,8 @@ class Method {
     for (const Gauge& g : gauges) points.push_back(g.at);
     return sample(points);
   }
-  // Highest bed level [m] under a fluid particle at least min_depth (third) deep within radius (second) of the point; -1e300 if none.
-  virtual double highest_wet_bed(const Point&, double, double) const { return -1e300; }
+  // The highest of the water at least min_depth (third) deep within radius (second) of the point [m].
+  virtual WetLevels highest_wet_levels(const Point&, double, double) const { return {}; }
   virtual std::vector<std::string> features() const = 0;  // what this scene switched on, for `check` and the log
 
   // What the method did beyond its recipe since t = 0, for the end of the log and the summary's warnings.

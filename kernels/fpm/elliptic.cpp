@@ -21,7 +21,7 @@ KOKKOS_FORCEINLINE_FUNCTION Terms<V, 2> flux_row(const Vec<V, 2>& n) {
 // The rows of one cluster.
 template <int D>
 struct AssembleRows {
-  Neighbourhood<D> around;
+  StencilView<D> stencils;
   PoissonPlaces<D> places;
   linear::ClusterMatrix matrix;
   Field<double> per_source, per_flux, given;
@@ -35,10 +35,10 @@ struct AssembleRows {
   }
 
   KOKKOS_INLINE_FUNCTION void operator()(int c) const {
+    const Neighbourhood<D>& around = stencils.around;
     const Lanes me = around.clusters(c);
     const Lane has_flux = where(me, row_flux), free = has_flux + where(me, row_equation), h = me.load(around.h);
-    Moments<Lane, D> moments;
-    around.for_each(c, [&](int, const Terms<Lane, D>& m, const Lane& w) { moments.add(w, m); });
+    Moments<Lane, D> moments = stencils.moments(c);
     const Terms<Lane, D> r_p = laplace_row<Lane, D>(), r_b = flux_row(has_flux * me.load(places.normal));
     moments.add(Lane(equation_weight), r_p);
     moments.add(Lane(equation_weight), r_b);
@@ -97,8 +97,9 @@ double Poisson<D>::look_at_points() {
 }
 
 template <int D>
-void Poisson<D>::assemble(const Neighbourhood<D>& around, const Rows& rows, const PoissonPlaces<D>& places) {
+void Poisson<D>::assemble(const StencilView<D>& stencils, const Rows& rows, const PoissonPlaces<D>& places) {
   const Region region("fpm::assemble");
+  const Neighbourhood<D>& around = stencils.around;
   around_ = around;
   places_ = places;
   reserve();
@@ -107,7 +108,7 @@ void Poisson<D>::assemble(const Neighbourhood<D>& around, const Rows& rows, cons
   matrix_.lay_out(around.clusters, around.near, around.points);
   if (!on_mesh_) matrix_.lay_out_rough();
   Kokkos::parallel_for("fpm::rows", Range(0, around.clusters.size()),
-                       AssembleRows<D>{around, places, matrix_, per_source_, per_flux_, given_, weights_, on_mesh_});
+                       AssembleRows<D>{stencils, places, matrix_, per_source_, per_flux_, given_, weights_, on_mesh_});
   if (on_mesh_)
     mesh_.build(rows, around.x, around.points, around.period, weights_);
   else

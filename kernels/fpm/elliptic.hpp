@@ -5,7 +5,7 @@
 // Where psi is given the row is psi_i = that. Without any such point constants are free: the system is A + 1 1^T / n, which has the
 // bordered system's solution, and the mean is taken off. Solved by BiCGStab, preconditioned on a mesh, or where supports differ by bins.
 #pragma once
-#include "kernels/fpm/neighbours.hpp"
+#include "kernels/fpm/stencils.hpp"
 #include "kernels/linear/bicgstab.hpp"
 #include "kernels/linear/bin_multigrid.hpp"
 #include "kernels/linear/point_mesh.hpp"
@@ -37,7 +37,7 @@ template <int D>
 class Poisson {
  public:
   // The rows, and the levels of the preconditioner. rows: the order of the points.
-  void assemble(const Neighbourhood<D>& around, const Rows& rows, const PoissonPlaces<D>& places);
+  void assemble(const StencilView<D>& stencils, const Rows& rows, const PoissonPlaces<D>& places);
 
   // psi holds the first guess. floor: a residual of psi (root of the sum of squares) that is always good enough.
   PoissonReport solve(const PoissonData& data, const Field<double>& psi, const linear::BiCgStabOptions& options);

@@ -22,8 +22,8 @@ KOKKOS_INLINE_FUNCTION Standing past_end(const TankView& tank, const Standing& h
   return {tank.place(next, at_b ? rest : t.length - rest), on_wall, next};
 }
 
-// reach [m]: how far behind a wall a point may have come in one step.
-KOKKOS_INLINE_FUNCTION Standing hold(const TankView& tank, const Standing& here, double reach) {
+// reach [m]: how far behind a wall a point may have come in one step. close [m]: fluid points this near before it stand on it too.
+KOKKOS_INLINE_FUNCTION Standing hold(const TankView& tank, const Standing& here, double reach, double close = 0) {
   if (here.kind == in_corner) return {tank.sides(here.side).b, in_corner, here.side};
   if (here.kind == on_wall) {
     const Side& s = tank.sides(here.side);
@@ -32,7 +32,7 @@ KOKKOS_INLINE_FUNCTION Standing hold(const TankView& tank, const Standing& here,
     return {tank.place(here.side, along), on_wall, here.side};
   }
   const Footing f = tank.nearest(here.x, reach);
-  if (f.side < 0 || f.foot.off >= 0) return here;
+  if (f.side < 0 || f.foot.off >= close) return here;
   return {tank.place(f.side, clamp(f.foot.along, 0.0, tank.sides(f.side).length)), on_wall, f.side};
 }
 

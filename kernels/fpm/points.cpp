@@ -7,6 +7,7 @@ namespace freshet::fpm {
 namespace {
 
 constexpr double beyond = 0.5;  // x range: by how much values in a hole may exceed those around; elsewhere they do not
+constexpr double touching = 0.25;  // x spacing: inner points this near to a wall stand on it; beside a wall without points water goes through
 constexpr double lonely = 1.5;  // x spacing: a surface point on a wall with no fluid point nearer than this is given up
 
 template <class View>
@@ -85,13 +86,13 @@ Cloud Points::cloud(const FieldSet& points, const RowOrder& order) const {
 
 int Points::hold_to_walls(FieldSet& points) {
   const VecField<double, 2> x{points.real("x"), points.real("y")};
-  const Field<int> kind = points.integer("kind"), side = points.integer("side");
+  const Field<int> kind = points.integer("kind"), side = points.integer("side"), surface = points.integer("surface");
   const TankView tank = tank_.view();
   const Period period = period_;
-  const double reach = 2 * rule_.spacing;
+  const double reach = 2 * rule_.spacing, close = touching * rule_.spacing;
   int landed = 0;
   Kokkos::parallel_reduce("fpm::hold", Range(0, points.size()), KOKKOS_LAMBDA(int i, int& count) {
-        const Standing now = hold(tank, {at(x, i), kind(i), side(i)}, reach);
+        const Standing now = hold(tank, {at(x, i), kind(i), side(i)}, reach, surface(i) ? 0.0 : close);
         count += kind(i) == in_fluid && now.kind != in_fluid;
         put(x, i, period.wrap(now.x));
         kind(i) = now.kind;

@@ -69,6 +69,14 @@ class Projection {
   // The points must be sorted, listed and flagged.
   ProjectionReport advance(const Neighbourhood<2>& around, const Rows& rows, const Flow& flow, const Backward& time);
 
+  // The pressure [Pa] that goes with the velocities as they are, of the points of the last step:
+  //   lap p = - rho (grad v : grad v^T),  walls: n . grad p = rho n . (f + nu lap v),  surface: p = 0
+  // The step's own p holds besides what takes off, within one step, the divergence that contacts, new points and flags brought: impulses over dt.
+  PoissonReport pressure_of_flow(const Flow& flow, const Field<double>& pressure);
+
+  // Whether these are the points of the last step.
+  bool knows(const Flow& flow) const { return stencils_.view().around.points == flow.points; }
+
   const Stencils<2>& stencils() const { return stencils_; }
 
  public:  // device lambdas may not live in private members

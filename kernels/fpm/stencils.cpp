@@ -26,6 +26,7 @@ StencilReport Stencils<D>::find(const Neighbourhood<D>& around) {
         const Lanes me = view.around.clusters(c);
         Moments<Lane, D> moments;
         view.around.for_each(c, [&](int, const Terms<Lane, D>& m, const Lane& w) { moments.add(w, m); });
+        view.keep(c, moments);
         const Derivatives<Lane, D> d(moments, 1.0 / me.load(view.around.h));
         unroll<D>([&](auto axis) { view.store(c, axis * view.slopes, d.gradient[axis]); });
         view.store(c, view.laplacian_first, d.laplacian);

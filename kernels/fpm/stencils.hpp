@@ -1,6 +1,6 @@
 // Derivatives by moving least squares at every point (thesis 5.9-5.13): the factors of gradient, Laplacian and fitted value are found once
 // per step and reused by all operators. Derivatives act on differences to the point's own value; the fitted value counts the point
-// itself with weight 1. Reads x, h; writes factors [1/m, 1/m2, 1].
+// itself with weight 1. The moments are kept for the rows of the pressure. Reads x, h; writes factors [1/m, 1/m2, 1], moments [1].
 #pragma once
 #include "cellgrid/sums.hpp"
 #include "kernels/fpm/neighbours.hpp"
@@ -14,7 +14,8 @@ struct StencilView {
   Kokkos::View<double***, Kokkos::LayoutRight, Memory> factors;
 
   static constexpr int slopes = terms<D> - 1;
-  static constexpr int laplacian_first = D * slopes, value_first = laplacian_first + slopes, count = value_first + terms<D>;
+  static constexpr int laplacian_first = D * slopes, value_first = laplacian_first + slopes,
+                       moments_first = value_first + terms<D>, moment_count = terms<D> * (terms<D> + 1) / 2, count = moments_first + moment_count;
 
   template <int N>
   KOKKOS_FORCEINLINE_FUNCTION Column<Lane, N> load(int c, int first) const {
@@ -25,6 +26,16 @@ struct StencilView {
   template <int N>
   KOKKOS_FORCEINLINE_FUNCTION void store(int c, int first, const Column<Lane, N>& beta) const {
     unroll<N>([&](auto k) { __builtin_memcpy(&factors(c, first + k, 0), &beta[k], sizeof(Lane)); });
+  }
+
+  // sum w m m^T over the neighbours.
+  KOKKOS_FORCEINLINE_FUNCTION Moments<Lane, D> moments(int c) const {
+    Moments<Lane, D> kept;
+    unroll<moment_count>([&](auto k) { __builtin_memcpy(&kept.g.a[k], &factors(c, moments_first + k, 0), sizeof(Lane)); });
+    return kept;
+  }
+  KOKKOS_FORCEINLINE_FUNCTION void keep(int c, const Moments<Lane, D>& moments) const {
+    unroll<moment_count>([&](auto k) { __builtin_memcpy(&factors(c, moments_first + k, 0), &moments.g.a[k], sizeof(Lane)); });
   }
 
   // At the cluster's points, of fields f and v.

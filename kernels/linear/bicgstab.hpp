@@ -1,7 +1,7 @@
 // BiCGStab with right preconditioning (van der Vorst 1992) for any operator: the residual that it watches is the true one.
 //   p = r + beta (p - omega v), v = A M p, alpha = rho / (r0.v), s = r - alpha v, t = A M s, omega = t.s / t.t, x += M (alpha p + omega s)
-// A breakdown (rho or omega vanish against the residual) starts anew from the residual at hand. Results do not depend on the number of
-// threads; nothing is allocated after the first solve of a size.
+// Where s is small enough already, half an iteration is the last. A breakdown (rho or omega vanish against the residual) starts anew from
+// the residual at hand. Results do not depend on the number of threads; nothing is allocated after the first solve of a size.
 #pragma once
 #include <cmath>
 
@@ -44,7 +44,12 @@ class BiCgStab {
       precondition(p_, mp_);
       multiply(mp_, v_);
       alpha = rho / dot(sums_, n, r0_, v_);
-      add(n, -alpha, v_, r_);  // r is s now
+      rr = step_along(n, alpha);  // r is s now
+      if (rr <= goal2) {
+        add(n, alpha, mp_, x);
+        ++report.iterations;
+        break;
+      }
       precondition(r_, ms_);
       multiply(ms_, t_);
       const auto ts_tt = dots(sums_, n, t_, r_, t_);
@@ -72,6 +77,15 @@ class BiCgStab {
     Kokkos::parallel_for("bicgstab::direction", Range(0, n), KOKKOS_LAMBDA(int i) {
           p(i) = beta == 0 ? r(i) : r(i) + beta * (p(i) - omega * v(i));
         });
+  }
+
+  // r -= alpha v; returns r . r
+  double step_along(int n, double alpha) {
+    const Vector r = r_, v = v_;
+    return sums_.sum<1>("bicgstab::step_along", n, KOKKOS_LAMBDA(int i) {
+      r(i) -= alpha * v(i);
+      return Kokkos::Array<double, 1>{{r(i) * r(i)}};
+    })[0];
   }
 
   // x += alpha M p + omega M s, r := s - omega t; returns r . r

@@ -136,7 +136,9 @@ struct Coarsen {
       const int n = g.start(row) + i;
       coarse.mass(n) = mass, coarse.east(n) = east, coarse.north(n) = north;
     }
-    for (const Vector* v : {&coarse.mass, &coarse.east, &coarse.north}) g.wrap(*v, row);
+    g.wrap(coarse.mass, row);
+    g.wrap(coarse.east, row);
+    g.wrap(coarse.north, row);
   }
 };
 

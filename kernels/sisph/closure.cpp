@@ -68,11 +68,11 @@ struct Shift {
   KOKKOS_FUNCTION void operator()(int s, double& change, int& negative) const {
     const Vec<Lane, D> li = g.pairs(s).load(lambda);
     g.pairs.for_each(s, [&](int e, PairIndex j) {
-      const Lane area = PairView::load(g.area, e), part = dot(gather(lambda, j) - li, PairView::load(g.n, e));
-      PairView::store(g.area, e, area * (1.0 - part));
-      const Lane size = select(Lane(0.0) < area, larger(part, -part), Lane(0.0));
+      const Lane area = PairView::load(g.area, e), share = closing<D>(li, gather(lambda, j), PairView::load(g.n, e)), closed = area * share;
+      PairView::store(g.area, e, closed);
+      const Lane size = select(Lane(0.0) < area, larger(share - 1.0, 1.0 - share), Lane(0.0));
       change = larger(change, largest(size));
-      negative += count(area * (1.0 - part) < Lane(0.0));
+      negative += count(closed < Lane(0.0));
     });
   }
 };
@@ -112,6 +112,7 @@ ClosureReport close_areas(const Geometry<D>& g) {
                           Kokkos::Max<double>(report.change), Kokkos::Sum<int>(negative));
   report.negative = negative / 2;  // each stands in both rows
   report.unclosed = openness<D>(g, parts(right, stride, dimension), parts(inverse, stride, dimension));
+  report.lambda = lambda;
   return report;
 }
 

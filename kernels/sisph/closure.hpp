@@ -12,6 +12,7 @@ struct ClosureReport {
   double change = 0;    // largest |A_new / A - 1|
   double unclosed = 0;  // largest |sum_j A_ij n_ij| / sum_j A_ij after it
   int negative = 0;     // areas below zero
+  Field<double> lambda;  // the components one after another, images.slots() values each; empty where nothing was to be closed
 };
 
 // Changes g.area. Allocates; not for use inside a step.

@@ -32,15 +32,11 @@ struct Measure {
     const Lane hi = me.load(h);
     Lane sum = kernel.at(Lane(0.0)).w / power<D>(hi);
     g.pairs.for_each(s, [&](int e, PairIndex j) {
-      const Vec<Lane, D> d = gather(g.x, j) - xi;
-      const Lane r2 = dot(d, d), inv_r = rsqrt(r2 + tiny_square), r = r2 * inv_r;
-      const Lane inv_h = 2.0 / (hi + gather(h.data(), j)), norm = power<D>(inv_h);
-      const KernelValue<Lane> k = kernel.at(r * inv_h);
-      const Lane here = select(Lane(0.0) < r2, Lane(1.0), Lane(0.0));  // not padding
-      PairView::store(g.n, e, inv_r * d);
-      PairView::store(g.distance, e, r + (1.0 - here));  // padding: 1 m, so that it can be divided by
-      PairView::store(g.weight, e, -here * norm * inv_h * k.dw);
-      sum += here * norm * k.w;
+      const PairShape<D> shape = pair_shape<D>(kernel, gather(g.x, j) - xi, 2.0 / (hi + gather(h.data(), j)));
+      PairView::store(g.n, e, shape.n);
+      PairView::store(g.distance, e, shape.distance);
+      PairView::store(g.weight, e, shape.slope);
+      sum += shape.w;
     });
     if constexpr (sized) me.store(g.omega, 1.0 / sum);
   }
@@ -75,19 +71,6 @@ void measure_pairs(const Geometry<D>& g, const Shapes<D>& shapes, bool sized) {
   }, shapes.kernel);
 }
 
-// Not taken apart by -fassociative-math, so that what is symmetric in i and j is so to the bit.
-KOKKOS_FORCEINLINE_FUNCTION Lane together(Lane a) {
-#if defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__) && !defined(KOKKOS_ENABLE_CUDA) && !defined(KOKKOS_ENABLE_HIP)
-#ifdef FRESHET_SCALAR
-  return __builtin_assoc_barrier(a);
-#else
-  return Lane(__builtin_assoc_barrier(a.v));
-#endif
-#else
-  return a;
-#endif
-}
-
 template <int D>
 struct Areas {
   Geometry<D> g;
@@ -97,7 +80,7 @@ struct Areas {
     const Lane omega = me.load(g.omega), per = 1.0 / me.load(g.moment);
     g.pairs.for_each(s, [&](int e, PairIndex j) {
       const Lane slope = PairView::load(g.weight, e), other = gather(g.omega.data(), j);
-      PairView::store(g.area, e, together(omega * other) * slope * together(per + 1.0 / gather(g.moment.data(), j)));
+      PairView::store(g.area, e, pair_area(omega, other, slope, per, 1.0 / gather(g.moment.data(), j)));
       PairView::store(g.weight, e, other * slope);
     });
   }

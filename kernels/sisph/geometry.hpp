@@ -8,8 +8,8 @@
 #include "cellgrid/pairs.hpp"
 #include "cellgrid/sums.hpp"
 #include "kernels/sisph/images.hpp"
+#include "kernels/sisph/pair_shape.hpp"
 #include "kernels/sisph/walls.hpp"
-#include "kernels/smoothing.hpp"
 
 namespace freshet::sisph {
 

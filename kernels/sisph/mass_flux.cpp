@@ -4,18 +4,19 @@ namespace freshet::sisph {
 namespace {
 
 // F_ij = f_ij - (a_ij / dt)(eta_j - eta_i)
-template <int D>
+template <int D, class Matrix>
 struct Fluxes {
   Geometry<D> g;
   SliceList active;
-  Field<double> a, level, flux;
+  Matrix a;
+  Field<double> level, flux;
   double per_dt;
 
   KOKKOS_FUNCTION void operator()(int k) const {
     const int s = active(k);
     const Lane eta = g.pairs(s).load(level);
-    g.pairs.for_each(s, [&](int e, PairIndex j) {
-      const Lane drawn = (per_dt * PairView::load(a, e)) * (gather(level.data(), j) - eta);
+    a.for_each(g.pairs, s, [&](int e, PairIndex j, Lane aij) {
+      const Lane drawn = (per_dt * aij) * (gather(level.data(), j) - eta);
       PairView::store(flux, e, PairView::load(flux, e) - drawn);
     });
   }
@@ -156,8 +157,10 @@ void MassFlux<D>::scale_outflow(const SliceList& active, const FreeSurface<D>& s
 
 template <int D>
 FluxReport MassFlux<D>::close_depths(const SliceList& active, const Water<D>& water, const FreeSurface<D>& surface, double dt) {
-  Kokkos::parallel_for("sisph::fluxes", Range(0, active.count),
-                       Fluxes<D>{g_, active, surface.a(), surface.level(), surface.flux(), 1 / dt});
+  std::visit([&](const auto& a) {
+    const Fluxes<D, std::decay_t<decltype(a)>> pass{g_, active, a, surface.level(), surface.flux(), 1 / dt};
+    Kokkos::parallel_for("sisph::fluxes", Range(0, active.count), pass);
+  }, surface.pairs());
   FluxReport report;
   report.limited = least_depth(active, water, surface, dt) < 0;
   if (report.limited) {

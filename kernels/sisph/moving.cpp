@@ -162,7 +162,7 @@ template <int D>
 linear::CgReport MovingWater<D>::solve_linear(const linear::CgOptions& options, double stiffness) {
   const auto product = [&](const Field<double>& x, const Field<double>& y) {
     return sums_.template sum<1, 64>("sisph::product", g_.slices.count,
-                                     linear::PairProduct<SliceList>{g_.pairs, g_.slices, a_, diagonal_, g_.free, x, y})[0];
+                                     linear::PairProduct<SliceList>{g_.pairs, g_.slices, {a_}, diagonal_, g_.free, x, y})[0];
   };
   if (!mesh_on_) return cg_.solve(product, linear::Jacobi{inverse_}, right_, change_, options);
   lay_mesh(stiffness);

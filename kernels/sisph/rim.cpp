@@ -3,11 +3,12 @@
 namespace freshet::sisph {
 namespace {
 
-template <int D>
+template <int D, class Matrix>
 struct Flow {
   Geometry<D> g;
   SliceList rim;
-  Field<double> flux, a, level;
+  Matrix a;
+  Field<double> flux, level;
   double drawn_per_dt;  // 1/dt, or 0 where the flux holds it already
 
   KOKKOS_FUNCTION Kokkos::Array<double, 2> operator()(int k) const {
@@ -15,8 +16,8 @@ struct Flow {
     const Lanes me = g.pairs(s);
     const Lane free = free_lanes(g, me), eta = me.load(level);
     Lane in(0.0), out(0.0);
-    g.pairs.for_each(s, [&](int e, PairIndex j) {
-      const Lane drawn = (drawn_per_dt * PairView::load(a, e)) * (gather(level.data(), j) - eta);
+    a.for_each(g.pairs, s, [&](int e, PairIndex j, Lane aij) {
+      const Lane drawn = (drawn_per_dt * aij) * (gather(level.data(), j) - eta);
       const Lane f = (free * (1.0 - gather(g.free.data(), j))) * (PairView::load(flux, e) - drawn);
       in += larger(-f, Lane(0.0));
       out += larger(f, Lane(0.0));
@@ -50,8 +51,10 @@ Rim<D>::Rim(const Geometry<D>& g) : g_(g), list_(slices_with_held_neighbours(g))
 template <int D>
 RimFlow Rim<D>::flow(const FreeSurface<D>& surface, double dt, bool closed) {
   if (list_.count == 0) return {};
-  const auto sum = sums_.sum<2>("sisph::rim_flow", list_.count,
-                                Flow<D>{g_, list_, surface.flux(), surface.a(), surface.level(), closed ? 0.0 : 1 / dt});
+  const auto sum = std::visit([&](const auto& a) {
+    const Flow<D, std::decay_t<decltype(a)>> pass{g_, list_, a, surface.flux(), surface.level(), closed ? 0.0 : 1 / dt};
+    return sums_.sum<2>("sisph::rim_flow", list_.count, pass);
+  }, surface.pairs());
   return {dt * sum[0], dt * sum[1]};
 }
 

@@ -7,14 +7,52 @@
 namespace freshet::sisph {
 
 template <int D>
-FreeSurface<D>::FreeSurface(const Geometry<D>& g, const Rows& rows, const SurfaceOptions& options)
+FreeSurface<D>::FreeSurface(const Geometry<D>& g, const Rows& rows, const SurfaceOptions& options,
+                            const std::optional<PairSource<D>>& source)
     : g_(g), rows_(rows), options_(options) {
   const size_t pair_values = g.pairs.j.extent(0);
-  a_ = Field<double>("sisph.a", pair_values);
   flux_ = Field<double>("sisph.flux", pair_values);
+  if (source) take_source(*source);
+  else pairs_ = linear::StoredPairs{Field<double>("sisph.a", pair_values)};
   for (Field<double>* f : {&level_, &depth_, &right_, &residual_, &change_, &row_sum_, &diagonal_, &inverse_, &share_})
     *f = Field<double>("sisph.surface", static_cast<size_t>(g.pairs.particles) + lanes);
   cg_.resize(g.pairs.particles);
+}
+
+template <int D>
+void FreeSurface<D>::take_source(const PairSource<D>& source) {
+  const auto particles = static_cast<size_t>(g_.pairs.particles) + lanes;
+  const int slots = g_.images.slots();
+  const bool closed = source.lambda.extent(0) > 0;
+  const Field<double> lambda = closed ? source.lambda : Field<double>("sisph.lambda", static_cast<size_t>(D * slots) + lanes);
+  kernel_ = source.kernel;
+  for (Field<double>* f : {&places_.per_moment, &held_depth_, &held_last_}) *f = Field<double>("sisph.held", particles);
+  places_.inv_h = 1 / source.h;
+  places_.x = g_.x;
+  places_.lambda = parts(lambda, slots, Vec<double, D>{});
+  places_.omega = g_.omega;
+  const Field<double> moment = g_.moment, per = places_.per_moment;
+  Kokkos::parallel_for("sisph::per_moment", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) { per(i) = 1.0 / moment(i); });
+}
+
+// What coefficients that are not stored need of a pass: depths change while it is solved.
+template <int D>
+void FreeSurface<D>::hold_depths(const Water<D>& water, bool drying) {
+  const Field<double> now = water.depth, last = depth_, held_depth = held_depth_, held_last = held_last_;
+  Kokkos::parallel_for("sisph::hold_depths", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) {
+        const double before = larger(last(i), 0.0);
+        held_depth(i) = drying ? now(i) : 0.5 * (now(i) + before);
+        held_last(i) = before;
+      });
+}
+
+template <int D>
+template <bool drying, bool dragged>
+AnyPairs<D> FreeSurface<D>::recomputed(const Water<D>& water, double stiffness) const {
+  const Holdings<drying, dragged> held{held_depth_, held_last_, water.bed, drag_};
+  return std::visit([&](const auto& kernel) -> AnyPairs<D> {
+    return RecomputedPairs<D, std::decay_t<decltype(kernel)>, drying, dragged>{kernel, places_, held, stiffness};
+  }, *kernel_);
 }
 
 template <int D>
@@ -51,10 +89,18 @@ template <bool drying, bool dragged>
 typename FreeSurface<D>::Norms FreeSurface<D>::find_coefficients(const SliceList& active, const Water<D>& water,
                                                                  const VecField<double, D>& before, double dt) {
   const double stiffness = options_.gravity * options_.theta * options_.theta * dt * dt;
-  const Coefficients<D, drying, dragged> pass{g_, active, water, before, depth_, level_, drag_, a_, flux_, right_, residual_,
-                                              row_sum_, share_, stiffness, dt, options_.gravity};
   g_.images.fill(before);
-  const auto sums = sums_.sum<3>("sisph::coefficients", active.count, pass);
+  const auto visit = [&](const auto& stored, const Field<double>& a) {
+    const Coefficients<D, drying, dragged, std::decay_t<decltype(stored)>::value> pass{
+        g_,    active,    water,  before, depth_,    level_, drag_,           a, flux_,
+        right_, residual_, row_sum_, share_, stiffness, dt,     options_.gravity};
+    return sums_.sum<3>("sisph::coefficients", active.count, pass);
+  };
+  if (kernel_) {
+    hold_depths(water, drying);
+    pairs_ = recomputed<drying, dragged>(water, stiffness);
+  }
+  const auto sums = kernel_ ? visit(std::false_type{}, {}) : visit(std::true_type{}, std::get<linear::StoredPairs>(pairs_).a);
   if (!drying || sums[2] == 0) return {std::sqrt(sums[0]), std::sqrt(sums[1])};
   const auto limited = sums_.sum<2>("sisph::limit_outflow", active.count,
                                     LimitOutflow<D>{g_, active, water.depth, share_, flux_, right_, residual_, dt});
@@ -63,8 +109,10 @@ typename FreeSurface<D>::Norms FreeSurface<D>::find_coefficients(const SliceList
 
 template <int D>
 double FreeSurface<D>::find_residual(const SliceList& active, const Water<D>& water) {
-  return std::sqrt(sums_.sum<1>("sisph::residual", active.count,
-                                Residual<D>{g_, active, a_, level_, water.bed, right_, depth_, residual_})[0]);
+  return std::visit([&](const auto& a) {
+    const Residual<D, std::decay_t<decltype(a)>> pass{g_, active, a, level_, water.bed, right_, depth_, residual_};
+    return std::sqrt(sums_.sum<1>("sisph::residual", active.count, pass)[0]);
+  }, pairs_);
 }
 
 // P + sum_j a_ij and its inverse; rows without any are left out.
@@ -103,7 +151,10 @@ void FreeSurface<D>::set_mesh(const SliceList& active, const Water<D>& water, do
 template <int D>
 int FreeSurface<D>::solve_linear(const SliceList& active, const Water<D>& water, const linear::CgOptions& options, double stiffness) {
   const auto product = [&](const Field<double>& x, const Field<double>& y) {
-    return sums_.sum<1>("sisph::product", active.count, Product<D>{g_, active, a_, diagonal_, x, y})[0];
+    return std::visit([&](const auto& a) {
+      using Product = linear::PairProduct<SliceList, std::decay_t<decltype(a)>>;
+      return sums_.sum<1>("sisph::product", active.count, Product{g_.pairs, active, a, diagonal_, g_.free, x, y})[0];
+    }, pairs_);
   };
   if (!mesh_on_) return cg_.solve(product, linear::Jacobi{inverse_}, residual_, change_, options).iterations;
   set_mesh(active, water, stiffness);
@@ -115,8 +166,10 @@ int FreeSurface<D>::solve_linear(const SliceList& active, const Water<D>& water,
 // Newton's are, so that their convergence is monotone still.
 template <int D>
 void FreeSurface<D>::level_rows(const SliceList& active, const Water<D>& water) {
-  Kokkos::parallel_for("sisph::level_alone", Range(0, active.count),
-                       LevelAlone<D>{g_, active, a_, level_, water.bed, right_, row_sum_, change_});
+  std::visit([&](const auto& a) {
+    const LevelAlone<D, std::decay_t<decltype(a)>> pass{g_, active, a, level_, water.bed, right_, row_sum_, change_};
+    Kokkos::parallel_for("sisph::level_alone", Range(0, active.count), pass);
+  }, pairs_);
   const PairView pairs = g_.pairs;
   const Field<double> level = level_, found = change_;
   const SliceList list = active;

@@ -10,28 +10,9 @@
 
 #include "kernels/linear/cg.hpp"
 #include "kernels/linear/particle_mesh.hpp"
-#include "kernels/sisph/geometry.hpp"
+#include "kernels/sisph/coefficients.hpp"
 
 namespace freshet::sisph {
-
-// Of the water of one, how much the other must hold for the two to count as wet alike: 0 where one is dry ... 1. Continuous, so that
-// what rounding leaves of a film, or not, is the same to its neighbours. (A solitary wave runs up 5.6 % too low with 0.2, 5.1 with 0.1,
-// 4.7 with 0.05; of a change of the bed by rounding a quarter period of Thacker's bowl makes 2e-7 m with 0.2, 1.2e-6 m with 0.05.)
-template <class V>
-KOKKOS_FORCEINLINE_FUNCTION V wetness(V thinner, V deeper) {
-  constexpr double alike = 0.05;
-  return smaller(thinner / (alike * deeper + 1e-300), V(1.0));
-}
-
-// Depth between two particles: their mean where both are wet, the water above the higher bed where one is dry, and a mean of the two
-// where one holds little.
-template <bool drying, class V>
-KOKKOS_FORCEINLINE_FUNCTION V face_depth(V depth_i, V depth_j, V bed_i, V bed_j) {
-  const V mean = 0.5 * (depth_i + depth_j);
-  if constexpr (!drying) return mean;
-  const V above = larger(larger(bed_i + depth_i, bed_j + depth_j) - larger(bed_i, bed_j), V(0.0));
-  return above + wetness(smaller(depth_i, depth_j), larger(depth_i, depth_j)) * (mean - above);
-}
 
 // The state that a step starts from.
 template <int D>
@@ -57,10 +38,19 @@ struct SurfaceReport {
   bool converged = true;
 };
 
+// What coefficients are found from where they are not stored.
+template <int D>
+struct PairSource {
+  AnyKernel<D> kernel;
+  double h;              // m, smoothing length, that of all
+  Field<double> lambda;  // of the closure (ClosureReport)
+};
+
 template <int D>
 class FreeSurface {
  public:
-  FreeSurface(const Geometry<D>& g, const Rows& rows, const SurfaceOptions& options);
+  // source: absent = coefficients are stored.
+  FreeSurface(const Geometry<D>& g, const Rows& rows, const SurfaceOptions& options, const std::optional<PairSource<D>>& source = {});
 
   // dt gamma of the friction, per particle (friction.hpp); to be asked for before the first step of a scene with friction.
   const Field<double>& make_drag();
@@ -72,7 +62,7 @@ class FreeSurface {
   // Views for the passes around the solve.
   const Field<double>& level() const { return level_; }    // eta as solved for, m: below the bed where dry
   const Field<double>& depth() const { return depth_; }    // from the fluxes, m: may be negative by the solver's residual
-  const Field<double>& a() const { return a_; }            // per pair
+  const AnyPairs<D>& pairs() const { return pairs_; }      // a_ij of the last pass
   const Field<double>& flux() const { return flux_; }      // per pair: f_ij, m3/s
 
   // Sets the iterate to the surface of the water and the depth to its depth.
@@ -81,10 +71,12 @@ class FreeSurface {
   // before: velocity before the pressure at n+1. drying: some particle may be dry.
   SurfaceReport solve(const SliceList& active, const Water<D>& water, const VecField<double, D>& before, double dt, bool drying);
 
-  // Parts of solve(); public since device lambdas may not live in private members.
+  // Parts of solve() and of the constructor; public since device lambdas may not live in private members.
   void level_rows(const SliceList& active, const Water<D>& water);
   void set_mesh(const SliceList& active, const Water<D>& water, double stiffness);
   void set_diagonal(const SliceList& active, const Water<D>& water, bool all_wet);
+  void take_source(const PairSource<D>& source);
+  void hold_depths(const Water<D>& water, bool drying);
 
  private:
   struct Norms {
@@ -92,6 +84,8 @@ class FreeSurface {
   };
   template <bool drying, bool dragged>
   Norms find_coefficients(const SliceList& active, const Water<D>& water, const VecField<double, D>& before, double dt);
+  template <bool drying, bool dragged>
+  AnyPairs<D> recomputed(const Water<D>& water, double stiffness) const;
   double find_residual(const SliceList& active, const Water<D>& water);
   int solve_linear(const SliceList& active, const Water<D>& water, const linear::CgOptions& options, double stiffness);
 
@@ -105,7 +99,11 @@ class FreeSurface {
   Field<double> wet_, mesh_depth_;  // per particle, for the mesh: omega, or 0 where dry or held; m
   bool first_ = true;   // the next pass is the first of its step
   double scale_ = 1;    // |r| there: what residuals are measured in, whatever the depth below the waves
-  Field<double> a_, flux_;                                       // per pair
+  Field<double> flux_;                                           // per pair
+  AnyPairs<D> pairs_;
+  std::optional<AnyKernel<D>> kernel_;  // where coefficients are not stored, with:
+  Places<D> places_;
+  Field<double> held_depth_, held_last_;  // m, of a pass: the mean of both depths where all is wet, else the depth before
   Field<double> level_, depth_, right_, residual_, change_;      // per particle
   Field<double> row_sum_, diagonal_, inverse_, share_;
   Field<double> drag_;                                           // empty without friction

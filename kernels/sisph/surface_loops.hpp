@@ -14,8 +14,8 @@ KOKKOS_FORCEINLINE_FUNCTION Lane run_up_depth(Lane depth, Lane bed, Lane dry_bed
 }
 
 // a, f, b, the row sums, the residual of the iterate and the share of its outflow f that a particle has water for; returns the
-// slice's parts of |r|^2 and |b|^2, and how many of its particles would give more than they have.
-template <int D, bool drying, bool dragged>
+// slice's parts of |r|^2 and |b|^2, and how many of its particles would give more than they have. a is written where it is stored.
+template <int D, bool drying, bool dragged, bool stored>
 struct Coefficients {
   Geometry<D> g;
   SliceList active;
@@ -46,28 +46,26 @@ struct Coefficients {
     const int s = active(k);
     const Lanes me = g.pairs(s);
     const Vec<Lane, D> vi = me.load(before);
-    const Lane hi = me.load(water.depth), li = larger(me.load(last_depth), Lane(0.0)), bi = me.load(water.bed), eta = me.load(level);
-    Lane outflow(0.0), given(0.0), sum_a(0.0), drawn(0.0), drag_i(0.0);
-    if constexpr (dragged) drag_i = me.load(drag);
-    g.pairs.for_each(s, [&](int e, PairIndex j) {
-      const Lane hj = gather(water.depth.data(), j), lj = larger(gather(last_depth.data(), j), Lane(0.0));
-      const Lane bj = drying ? gather(water.bed.data(), j) : Lane(0.0);
-      const Lane face = 0.5 * (face_depth<drying>(hi, hj, bi, bj) + face_depth<drying>(li, lj, bi, bj));
-      const Lane vn = dot(pair_velocity(vi, gather(before, j), hi + li, hj + lj), PairView::load(g.n, e));
-      const Lane carried = 0.5 * (carried_depth(hi, hj, bi, bj, vn) + carried_depth(li, lj, bi, bj, vn));
+    const Holding i{me.load(water.depth), larger(me.load(last_depth), Lane(0.0)), me.load(water.bed), dragged ? me.load(drag) : Lane(0.0)};
+    const Lane eta = me.load(level);
+    Lane outflow(0.0), given(0.0), sum_a(0.0), drawn(0.0);
+    g.pairs.for_each(s, [&](int e, PairIndex index) {
+      const Holding j{gather(water.depth.data(), index), larger(gather(last_depth.data(), index), Lane(0.0)),
+                      drying ? gather(water.bed.data(), index) : Lane(0.0), dragged ? gather(drag.data(), index) : Lane(0.0)};
+      const Lane vn = dot(pair_velocity(vi, gather(before, index), i.depth + i.last, j.depth + j.last), PairView::load(g.n, e));
+      const Lane carried = 0.5 * (carried_depth(i.depth, j.depth, i.bed, j.bed, vn) + carried_depth(i.last, j.last, i.bed, j.bed, vn));
       const Lane area = PairView::load(g.area, e), f = area * carried * vn;
-      Lane aij = stiffness * area * face / PairView::load(g.distance, e);
-      if constexpr (dragged) aij = aij / (1.0 + 0.5 * (drag_i + gather(drag.data(), j)));
+      const Lane aij = coefficient<drying, dragged>(stiffness, area, PairView::load(g.distance, e), i, j);
       PairView::store(flux, e, f);
-      PairView::store(a, e, aij);
+      if constexpr (stored) PairView::store(a, e, aij);
       outflow += f;
       given += larger(f, Lane(0.0));
       sum_a += aij;
-      drawn += aij * (gather(level.data(), j) - eta);
+      drawn += aij * (gather(level.data(), index) - eta);
     });
     const Lane omega = me.load(g.omega), free = free_lanes(g, me);
-    const Lane has = omega * hi, wanted = dt * given, overdrawn = select(has < free * wanted, Lane(1.0), Lane(0.0));
-    const Lane b = has - dt * outflow, r = free * (b + drawn - omega * larger(eta - bi, Lane(0.0)));
+    const Lane has = omega * i.depth, wanted = dt * given, overdrawn = select(has < free * wanted, Lane(1.0), Lane(0.0));
+    const Lane b = has - dt * outflow, r = free * (b + drawn - omega * larger(eta - i.bed, Lane(0.0)));
     me.store(right, b);
     me.store(row_sum, sum_a);
     me.store(residual, r);
@@ -102,36 +100,20 @@ struct LimitOutflow {
   }
 };
 
-// y = (P + T) x; returns the slice's part of x . y.
-template <int D>
-struct Product {
-  Geometry<D> g;
-  SliceList active;
-  Field<double> a, diagonal, x, y;
-
-  KOKKOS_FUNCTION Kokkos::Array<double, 1> operator()(int k) const {
-    const int s = active(k);
-    const Lanes me = g.pairs(s);
-    const Lane xi = me.load(x);
-    const Lane row = free_lanes(g, me) * (me.load(diagonal) * xi - g.pairs.weighted_sum(s, a, x));
-    me.store(y, row);
-    return {{sum_of(me, xi * row)}};
-  }
-};
-
 // The depth from the fluxes, b - T eta = omega H, and the residual against V(eta); returns the slice's part of |r|^2.
-template <int D>
+template <int D, class Matrix>
 struct Residual {
   Geometry<D> g;
   SliceList active;
-  Field<double> a, level, bed, right, depth, residual;
+  Matrix a;
+  Field<double> level, bed, right, depth, residual;
 
   KOKKOS_FUNCTION Kokkos::Array<double, 1> operator()(int k) const {
     const int s = active(k);
     const Lanes me = g.pairs(s);
     const Lane eta = me.load(level), omega = me.load(g.omega), free = free_lanes(g, me);
     Lane drawn(0.0);
-    g.pairs.for_each(s, [&](int e, PairIndex j) { drawn += PairView::load(a, e) * (gather(level.data(), j) - eta); });
+    a.for_each(g.pairs, s, [&](int, PairIndex j, Lane aij) { drawn += aij * (gather(level.data(), j) - eta); });
     const Lane volume = me.load(right) + drawn;
     const Lane r = free * (volume - omega * larger(eta - me.load(bed), Lane(0.0)));
     me.store(depth, select(Lane(0.5) < free, volume / omega, me.load(depth)));
@@ -141,17 +123,18 @@ struct Residual {
 };
 
 // Every row solved for its own level, its neighbours' as they are.
-template <int D>
+template <int D, class Matrix>
 struct LevelAlone {
   Geometry<D> g;
   SliceList active;
-  Field<double> a, level, bed, right, row_sum, found;
+  Matrix a;
+  Field<double> level, bed, right, row_sum, found;
 
   KOKKOS_FUNCTION void operator()(int k) const {
     const int s = active(k);
     const Lanes me = g.pairs(s);
     const Lane sum = me.load(row_sum), floor = me.load(bed);
-    const Lane excess = me.load(right) + g.pairs.weighted_sum(s, a, level) - sum * floor;  // were its level the bed's
+    const Lane excess = me.load(right) + a.weighted_sum(g.pairs, s, level) - sum * floor;  // were its level the bed's
     const Lane slope = sum + select(Lane(0.0) < excess, me.load(g.omega), Lane(0.0));
     const auto tied = (Lane(0.0) < sum) & (Lane(0.5) < free_lanes(g, me));
     me.store(found, select(tied, floor + excess / (slope + 1e-300), me.load(level)));

@@ -1,4 +1,6 @@
-// What gauges show: the highest free surface above or below a point, the pressure there, how far the water reaches.
+// What gauges show: the highest free surface above or below a point, the pressure of the flow there, how far the water reaches.
+#include <algorithm>
+
 #include "kernels/fpm/surface_line.hpp"
 #include "src/fpm/nodes.hpp"
 #include "src/fpm/solver.hpp"
@@ -39,12 +41,14 @@ std::vector<PointState> Solver::gauge(const std::vector<Gauge>& gauges) const {
   const Cloud cloud = management_.cloud(points_, order_);
   const Field<int> surface = points_.integer("surface");
   const VoronoiRule& rule = management_.rule().voronoi;
+  const bool press = std::any_of(gauges.begin(), gauges.end(), [](const Gauge& g) { return g.what == Gauge::What::pressure; });
+  const Field<double> pressure = press ? flow_pressure() : Field<double>();
   std::vector<PointState> states;
   for (const Gauge& g : gauges) {
     PointState state;
     state.thin_is_dry = false;
     if (g.what == Gauge::What::pressure) {
-      const Probe probe = pressure_at(cloud, points_.real("p"), g.at, spacing_at(scene_, g.at), scene_.fpm->support);
+      const Probe probe = pressure_at(cloud, pressure, g.at, spacing_at(scene_, g.at), scene_.fpm->support);
       state.reached = probe.wet, state.depth = probe.wet ? probe.pressure : 0;
     } else {
       const bool front = g.what == Gauge::What::front;

@@ -75,6 +75,16 @@ double Solver::stable_dt() const {
   return std::isfinite(speed) ? dt : speed;
 }
 
+Field<double> Solver::flow_pressure() const {
+  const Flow flow = bind();
+  if (!projection_.knows(flow)) return flow.p;
+  const auto room = static_cast<std::size_t>(flow.points + flow.points / 2 + lanes);
+  if (flow_pressure_.extent_int(0) < flow.points + lanes) flow_pressure_ = Field<double>("fpm.flow_pressure", room);
+  const PoissonReport report = projection_.pressure_of_flow(flow, flow_pressure_);
+  if (!report.solve.converged) throw Diverged(unsolved(report.solve, scene_.fpm->tolerance));
+  return flow_pressure_;
+}
+
 Mechanics Solver::mechanics() const {
   const Flow flow = bind();
   const Field<double> area = cell_areas();

@@ -28,6 +28,9 @@ class Solver : public Method {
   ScalarState scalars() const override;
   void restore(const ScalarState& scalars) override;
 
+  // Pa, at every point: the pressure that goes with the velocities (Projection::pressure_of_flow); before the first step the points' own.
+  Field<double> flow_pressure() const;
+
   const PoissonReport& pressure_report() const { return pressure_; }
   const linear::BiCgStabReport& viscosity_report() const { return viscosity_; }
   const PointCount& counts() const { return counts_; }  // since t = 0
@@ -45,7 +48,7 @@ class Solver : public Method {
   std::optional<Grading> grading_;
   Points management_;
   NeighbourFinder<2> finder_;
-  Projection projection_;
+  mutable Projection projection_;  // pressures of gauges are solved for with its rows
   AreaKeeper keeper_;
   StepReport report_;
   PoissonReport pressure_;
@@ -53,7 +56,7 @@ class Solver : public Method {
   PointCount counts_;
   long limited_ = 0, moved_ = 0;  // points x steps, since t = 0: held within their neighbours' velocities; all
   mutable OrderedSums sums_;
-  mutable Field<double> area_;
+  mutable Field<double> area_, flow_pressure_;
   double last_dt_ = 0;  // s, 0 before the first step
   int next_id_ = 0;
 

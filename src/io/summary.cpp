@@ -107,11 +107,11 @@ void print_gauges(std::FILE* out, const std::vector<GaugeResult>& gauges) {
 }
 
 void print_run_ups(std::FILE* out, const std::vector<RunUpResult>& run_ups) {
-  std::fprintf(out, "\n%-12s %12s   %s\n", "run-up", "highest [m]", "measured [m]");
+  std::fprintf(out, "\n%-12s %12s %13s   %s\n", "run-up", "highest [m]", "waterline [m]", "measured [m]");
   for (const auto& r : run_ups) {
     const bool known = std::isfinite(r.measured.first);
     std::fprintf(
-        out, "%-12s %12s   %s\n", r.name.c_str(), cell(r.highest, 1, "%.4f").c_str(),
+        out, "%-12s %12s %13s   %s\n", r.name.c_str(), cell(r.highest, 1, "%.4f").c_str(), cell(r.waterline, 1, "%.4f").c_str(),
         known ? (cell(r.measured.first, 1, "%.4f") + " ... " + cell(r.measured.second, 1, "%.4f")).c_str()
               : "-");
   }
@@ -172,6 +172,8 @@ std::string json(const Summary& s) {
   for (const auto& gauge : s.gauges) write(out, gauge);
   out.end().begin("runup");
   for (const auto& run_up : s.run_ups) out.value(run_up.name, run_up.highest);
+  out.end().begin("waterline");
+  for (const auto& run_up : s.run_ups) out.value(run_up.name, run_up.waterline);
   out.end();
   if (!s.profiles.empty()) {
     out.begin("profiles");

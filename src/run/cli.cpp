@@ -1,6 +1,7 @@
 #include "src/run/cli.hpp"
 
 #include <cstdio>
+#include <new>
 
 #include "src/errors.hpp"
 #include "src/run/commands.hpp"
@@ -104,6 +105,9 @@ int run_cli(int argc, char** argv, const Parts& parts) {
   } catch (const Error& error) {
     print_error(error.what());
     return static_cast<int>(error.exit());
+  } catch (const std::bad_alloc&) {
+    print_error("not enough memory\n  help: a larger water.spacing or raster.spacing; 'freshet check' says what a scene takes");
+    return static_cast<int>(Exit::scene);
   } catch (const std::exception& error) {
     std::fprintf(stderr,
                  "freshet: internal error: %s\n  please report this with the scene and the command line\n",

@@ -2,7 +2,9 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <thread>
 
 #include "cellgrid/types.hpp"
 #include "src/errors.hpp"
@@ -91,7 +93,17 @@ int wanted_threads(const Scene& scene, const Arguments& arguments) {
   double cells = 1;
   for (std::size_t axis = 0; axis < static_cast<std::size_t>(scene.domain.dimension); ++axis)
     cells *= (scene.domain.high[axis] - scene.domain.low[axis]) / scene.water.spacing;
-  return arguments.number("--threads", cells < worth_threads ? 1 : 0, 1);
+  return threads_asked(arguments, cells < worth_threads ? 1 : 0);
+}
+
+// More threads than cores only wait for each other; thousands do not even start.
+int threads_asked(const Arguments& arguments, int otherwise) {
+  const int asked = arguments.number("--threads", otherwise, 1);
+  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  if (asked > 4 * std::max(cores, 4))
+    throw SceneError("--threads " + std::to_string(asked) + " on a machine of " + std::to_string(cores) +
+                     " cores\n  help: at most " + std::to_string(4 * std::max(cores, 4)) + "; without the option all physical cores are used");
+  return asked;
 }
 
 std::unique_ptr<Runtime> start_kokkos(int threads) {

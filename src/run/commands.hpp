@@ -45,6 +45,8 @@ std::string find_scene(const std::string& path_or_case);
 std::unique_ptr<Runtime> start_kokkos(int threads);
 // --threads, else 0, or 1 for a scene so small that starting threads would cost more than they do.
 int wanted_threads(const Scene& scene, const Arguments& arguments);
+// --threads, else otherwise; an error (SceneError) where it is many more than there are cores.
+int threads_asked(const Arguments& arguments, int otherwise);
 
 // How the user called the program, for commands that we tell him to type.
 extern std::string program_name;

@@ -50,7 +50,8 @@ std::vector<RunUpResult> Driver::run_up_results() const {
   for (std::size_t r = 0; r < scene_.run_ups.size(); ++r) {
     RunUpResult result;
     result.name = scene_.run_ups[r].name;
-    if (run_ups_.highest()[r] > -1e299) result.highest = run_ups_.highest()[r];
+    const WetLevels highest = run_ups_.highest()[r];
+    if (highest.bed > -1e299) result.highest = highest.bed, result.waterline = highest.line;
     if (const auto& range = scene_.run_ups[r].measured) result.measured = {(*range)[0], (*range)[1]};
     results.push_back(result);
   }

@@ -101,7 +101,7 @@ int check_command(const Arguments& arguments, const Parts& parts) {
   if (arguments.words.size() != 1) throw SceneError("usage: freshet check SCENE [key=value ...]");
   const Scene scene = parts.read(find_scene(arguments.words[0]), arguments.overrides);
   for (const auto& line : parts.describe(scene)) std::printf("%s\n", line.c_str());
-  const auto runtime = start_kokkos(arguments.number("--threads", 0, 1));
+  const auto runtime = start_kokkos(threads_asked(arguments, 0));
   print_method(scene, *parts.make(scene));
   return 0;
 }

@@ -38,10 +38,10 @@ Allowed allowed_in(const Scene& scene) {
           scene.limits.speed};
 }
 
-std::string text(double value) {
-  char digits[32];
-  std::snprintf(digits, sizeof digits, "%.6g", value);
-  return digits;
+std::string text(double value, int digits = 6) {
+  char number[32];
+  std::snprintf(number, sizeof number, "%.*g", digits, value);
+  return number;
 }
 
 std::string when(const Clock& clock) {
@@ -93,8 +93,8 @@ class Particles {
 
   int id(int i) const { return id_.extent(0) ? id_(i) : i; }
   std::string where(int i) const {
-    const std::string place = "particle " + std::to_string(id(i)) + " at x = " + text(x_(i)) + " m";
-    return y_.extent(0) ? place + ", y = " + text(y_(i)) + " m" : place;
+    const std::string place = "particle " + std::to_string(id(i)) + " at x = " + text(x_(i), 9) + " m";
+    return y_.extent(0) ? place + ", y = " + text(y_(i), 9) + " m" : place;
   }
 
   // What is wrong with particle i, and the limit; "" if nothing is.

@@ -78,13 +78,25 @@ void GaugeRecorder::restore(const Values& values) {
 }
 
 RunUpRecorder::RunUpRecorder(const std::vector<RunUp>& points)
-    : points_(points), highest_(points.size(), -1e300) {}
+    : points_(points), highest_(points.size()) {}
 
 void RunUpRecorder::record(const Method& method) {
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const auto& point = points_[k];
-    highest_[k] = std::max(highest_[k], method.highest_wet_bed(point.at, point.radius, point.min_depth));
+    const WetLevels found = method.highest_wet_levels(point.at, point.radius, point.min_depth);
+    highest_[k] = {std::max(highest_[k].bed, found.bed), std::max(highest_[k].line, found.line)};
   }
+}
+
+void RunUpRecorder::save(Values& values) const {
+  std::vector<double>& all = values["run_up"];
+  all.clear();
+  for (const WetLevels& w : highest_) all.insert(all.end(), {w.bed, w.line});
+}
+
+void RunUpRecorder::restore(const Values& values) {
+  const std::vector<double>& all = values.at("run_up");
+  for (std::size_t k = 0; k < highest_.size(); ++k) highest_[k] = {all.at(2 * k), all.at(2 * k + 1)};
 }
 
 }  // namespace freshet

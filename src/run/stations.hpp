@@ -40,19 +40,19 @@ class GaugeRecorder {
   std::vector<PointState> watched_;  // state before the step
 };
 
-// Highest bed level [m] that was wet at each run-up point so far.
+// The highest water at each run-up point so far.
 class RunUpRecorder {
  public:
   explicit RunUpRecorder(const std::vector<RunUp>& points);
   void record(const Method& method);
-  const std::vector<double>& highest() const { return highest_; }  // -1e300 where nothing was wet
+  const std::vector<WetLevels>& highest() const { return highest_; }
 
-  void save(Values& values) const { values["run_up"] = highest_; }
-  void restore(const Values& values) { highest_ = values.at("run_up"); }
+  void save(Values& values) const;
+  void restore(const Values& values);
 
  private:
   std::vector<RunUp> points_;
-  std::vector<double> highest_;
+  std::vector<WetLevels> highest_;
 };
 
 }  // namespace freshet

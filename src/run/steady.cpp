@@ -47,6 +47,12 @@ void SteadyRecorder::record(const Method& method) {
 
 Steadiness SteadyRecorder::result(const Method& method, double dt) const {
   const FieldSet& fields = method.fields();
+  Steadiness steady;
+  if (deepest_ > 0) {
+    steady.max_speed_rel = fastest_ / std::sqrt(gravity_ * deepest_);
+    steady.end_speed_rel = largest_speed(fields) / std::sqrt(gravity_ * deepest_);
+  }
+  if (!fields.has("depth_rate")) return steady;
   const auto rate = on_host(fields.real("depth_rate")), depth = on_host(fields.real("depth"));
   const bool open = fields.has("kind");
   const auto kind = on_host(open ? fields.integer("kind") : Field<int>());
@@ -55,11 +61,6 @@ Steadiness SteadyRecorder::result(const Method& method, double dt) const {
     if (open && kind(i) != 0) continue;
     sum += rate(i) * rate(i) / (depth(i) * depth(i));
     ++count;
-  }
-  Steadiness steady;
-  if (deepest_ > 0) {
-    steady.max_speed_rel = fastest_ / std::sqrt(gravity_ * deepest_);
-    steady.end_speed_rel = largest_speed(fields) / std::sqrt(gravity_ * deepest_);
   }
   if (count > 0) steady.rate = std::sqrt(sum / count);
   steady.thesis_ls = std::sqrt(sum) * dt;

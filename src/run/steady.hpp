@@ -14,7 +14,8 @@ class SteadyRecorder {
   void begin(const Method& method);  // the deepest water of the start
   void record(const Method& method);
   bool wanted() const { return wanted_; }
-  // The method gives the rate of change of each particle's depth as the field depth_rate; `dt` [s] of the last step.
+  // The explicit method gives the rate of change of each particle's depth as the field depth_rate; with others it is not known. `dt` [s] of
+  // the last step.
   Steadiness result(const Method& method, double dt) const;
 
   void save(Values& values) const { values["steady"] = {deepest_, fastest_}; }

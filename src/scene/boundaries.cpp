@@ -48,6 +48,18 @@ bool bends_too_much(const std::vector<Point>& line) {
   return false;
 }
 
+// Whether what lies left of a piece is outside the domain.
+bool leads_out(const std::vector<Point>& line, const Scene& scene) {
+  const Domain& domain = scene.domain;
+  for (std::size_t k = 1; k < line.size(); ++k) {
+    const double tx = line[k][0] - line[k - 1][0], ty = line[k][1] - line[k - 1][1], off = 0.01 * scene.water.spacing / std::hypot(tx, ty);
+    const Point left{0.5 * (line[k][0] + line[k - 1][0]) - off * ty, 0.5 * (line[k][1] + line[k - 1][1]) + off * tx};
+    for (std::size_t axis = 0; axis < 2; ++axis)
+      if (left[axis] < domain.low[axis] || left[axis] > domain.high[axis]) return true;
+  }
+  return false;
+}
+
 std::vector<Point> read_line(Table& section, const Scene& scene) {
   const std::vector<Point> line = section.points("line").otherwise({});
   if (line.empty()) return {};
@@ -66,6 +78,10 @@ std::vector<Point> read_line(Table& section, const Scene& scene) {
   }
   for (const Point& point : line)
     if (!require_inside(section, "line", "the boundary", point, scene)) return {};
+  if (leads_out(line, scene)) {
+    section.error("line", "the left of '" + section.path_of("line") + "', where its water is, lies outside the domain", "reverse its points");
+    return {};
+  }
   return line;
 }
 

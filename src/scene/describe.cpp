@@ -18,14 +18,21 @@ std::string brief(double number) {
   return text;
 }
 
+// Coordinates: northings have seven digits before the point.
+std::string place(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", number);
+  return text;
+}
+
 std::string extent(const Domain& domain) {
-  const std::string x = "x " + brief(domain.low[0]) + " to " + brief(domain.high[0]);
+  const std::string x = "x " + place(domain.low[0]) + " to " + place(domain.high[0]);
   if (domain.dimension == 1) return "1-D, " + x + " m";
-  return "2-D, " + x + ", y " + brief(domain.low[1]) + " to " + brief(domain.high[1]) + " m";
+  return "2-D, " + x + ", y " + place(domain.low[1]) + " to " + place(domain.high[1]) + " m";
 }
 
 std::string point(const Point& p, const Domain& domain) {
-  return domain.dimension == 1 ? "x = " + brief(p[0]) : '(' + brief(p[0]) + ", " + brief(p[1]) + ')';
+  return domain.dimension == 1 ? "x = " + place(p[0]) : '(' + place(p[0]) + ", " + place(p[1]) + ')';
 }
 
 std::string bed(const Scene& scene) {

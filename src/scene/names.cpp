@@ -43,6 +43,11 @@ const Names<Sisph::Correction>& correction_names() {
   return names;
 }
 
+const Names<Sisph::Coefficients>& coefficient_names() {
+  static const Names<Sisph::Coefficients> names{{"stored", Sisph::Coefficients::stored}, {"recomputed", Sisph::Coefficients::recomputed}};
+  return names;
+}
+
 std::string name_of(Stabilisation stabilisation) {
   switch (stabilisation) {
     case Stabilisation::none: return "not stabilised";

@@ -17,6 +17,7 @@ const Names<Sisph::Momentum>& momentum_names();
 const Names<Sisph::Formulation>& formulation_names();
 const Names<Sisph::Paths>& path_names();
 const Names<Sisph::Correction>& correction_names();
+const Names<Sisph::Coefficients>& coefficient_names();
 std::string name_of(Stabilisation stabilisation);  // "Lax-Friedrichs with MUSCL"
 
 template <class E>

@@ -1,8 +1,11 @@
 #include "src/scene/place.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <string>
 
 #include "src/errors.hpp"
@@ -52,6 +55,21 @@ CutCell cut_cell(const WaterRegion& water, const Point& centre, double width, do
   return {count / (fine * fine), count > 0 ? Point{x / count, y / count} : centre};
 }
 
+// As many particles as the machine's memory holds, and not more than whole numbers count.
+double most_particles() {
+  constexpr double bytes = 400;  // of a particle's fields and lists (tests/property/memory.cpp)
+  const double memory = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+  return std::min(1e9, memory / bytes);
+}
+
+[[noreturn]] void refuse_more_than(double most, double cells, const Scene& scene) {
+  const double coarser = scene.water.spacing * std::pow(cells / most, 1.0 / scene.domain.dimension);
+  char text[200];
+  std::snprintf(text, sizeof text, "water: more than %.3g particles, which this machine's memory does not hold (400 bytes each)\n"
+                "  help: a larger water.spacing than %.6g m; %.3g m if all of the domain is wet", most, scene.water.spacing, coarser);
+  throw SceneError(text);
+}
+
 std::vector<Placed> place_cells(const Scene& scene, const Function& depth) {
   constexpr double least_part = 0.25;  // of a cell: the water of smaller slivers along slanting walls is left out
   const WaterRegion water(scene.walls);
@@ -59,6 +77,8 @@ std::vector<Placed> place_cells(const Scene& scene, const Function& depth) {
   const bool plane = scene.domain.dimension == 2;
   const Cells along_x = cells_along(scene, 0), along_y = plane ? cells_along(scene, 1) : Cells{1, -0.5, 1};
   const double area = along_x.width * along_y.width, disorder = scene.water.disorder;
+  const double cells = static_cast<double>(along_x.n) * along_y.n, most = most_particles();
+  if (cells > 2e9) refuse_more_than(most, cells, scene);
   const auto moved = [&](const Point& middle, int cell) {
     const auto off = [&](int k) { return disorder * random_offset(scene.water.seed, 2 * static_cast<std::uint64_t>(cell) + static_cast<std::uint64_t>(k)); };
     const Point to{middle[0] + along_x.width * off(0), middle[1] + (plane ? along_y.width * off(1) : 0.0)};
@@ -73,6 +93,7 @@ std::vector<Placed> place_cells(const Scene& scene, const Function& depth) {
       if (cell.part < least_part) continue;
       const double d = finite_depth(depth, x, y), h0 = scene.sph.eta * (plane ? std::sqrt(own) : own);
       if (d > scene.water.wet_above) particles.push_back({{x, y}, d, own, h0, velocity_at(scene, x, y)});
+      if (static_cast<double>(particles.size()) > most) refuse_more_than(most, cells, scene);
     }
   return particles;
 }

@@ -87,8 +87,8 @@ toml::table parse(const std::string& text, Diagnostics& diagnostics) {
     return toml::parse(std::string_view(text), std::string("0"));
   } catch (const toml::parse_error& error) {
     const toml::source_position at = error.source().begin;
-    diagnostics.error({0, static_cast<int>(at.line), static_cast<int>(at.column)},
-                      std::string(error.description()));
+    diagnostics.error({0, static_cast<int>(at.line), static_cast<int>(at.column)}, std::string(error.description()),
+                      "a scene is TOML: each key once in a section, text in quotes, numbers without units, lists in [ ]");
   }
   return {};
 }

@@ -139,6 +139,8 @@ struct Sisph {
   enum class Paths { theta, euler, rk2, rk3, leap_frog };
   // The slope of a field: exact for linear fields, or normalised by Shepard's sum alone.
   enum class Correction { krongauz_belytschko, shepard };
+  // at rest: the pairs' coefficients a_ij of the free surface's matrix, kept in memory or found anew in every product
+  enum class Coefficients { stored, recomputed };
   // automatic: mass_flux where some place starts dry; conservative: mass_flux with pairwise antisymmetric pressure
   enum class Momentum { automatic, semi_lagrangian, mass_flux, conservative };
   struct Solver {
@@ -152,6 +154,7 @@ struct Sisph {
   Momentum momentum = Momentum::automatic;
   bool closure = true;     // pair areas closed: sum_j A_ij n_ij = 0
   Correction correction = Correction::krongauz_belytschko;
+  Coefficients coefficients = Coefficients::stored;
   Formulation formulation = Formulation::at_rest;
   Paths paths = Paths::theta;  // moving
   double jump = 0.25;          // moving: |v_i - v_j| dt / dx of neighbours at most

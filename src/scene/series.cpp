@@ -91,14 +91,16 @@ void add(Series& series, const SeriesFile& file, double t, double value) {
   series.value.push_back(value * file.scale + file.offset);
 }
 
-std::string bad_cell(const Row& row, const Columns& columns) {
+// The first cell of a row without numbers, and what to do about it.
+BadData bad_cell(const SeriesFile& file, const Row& row, const Columns& columns) {
   double number;
-  for (const std::size_t i : {columns.t, columns.value}) {
-    const std::string column = "column " + std::to_string(i + 1);
-    if (i >= row.cells.size()) return column + " is missing";
-    if (!parse_number(row.cells[i], number)) return column + " holds '" + row.cells[i] + "', not a number";
-  }
-  return "";
+  std::size_t i = columns.t;
+  if (i < row.cells.size() && parse_number(row.cells[i], number)) i = columns.value;
+  const std::string where = at_line(file.path, row.line) + ": column " + std::to_string(i + 1);
+  if (i >= row.cells.size()) return BadData(where + " is missing", "complete the row or remove it");
+  const bool comma = row.cells[i].find(',') != std::string::npos;
+  return BadData(where + " holds '" + row.cells[i] + "', not a number",
+                 comma ? "write decimals with a point" : "write a number there or remove the row");
 }
 
 Series sorted(const Series& series, const std::string& path, std::vector<std::string>& notes) {
@@ -138,8 +140,7 @@ Series read_forcing(const SeriesFile& file) {
   Series series;
   for (const Row& row : sheet.rows) {
     double t, value;
-    if (!read_row(row, columns, t, value))
-      throw BadData(at_line(file.path, row.line) + ": " + bad_cell(row, columns));
+    if (!read_row(row, columns, t, value)) throw bad_cell(file, row, columns);
     add(series, file, t, value);
     const std::size_t n = series.t.size();
     if (n > 1 && !(series.t[n - 1] > series.t[n - 2])) {
@@ -164,8 +165,7 @@ Series read_measured(const SeriesFile& file, std::vector<std::string>& notes) {
     }
     add(series, file, t, value);
   }
-  if (series.t.empty())
-    throw BadData(at_line(file.path, sheet.rows[0].line) + ": " + bad_cell(sheet.rows[0], columns));
+  if (series.t.empty()) throw bad_cell(file, sheet.rows[0], columns);
   if (left_out > 0) {
     notes.push_back(file_name(file.path) + ": " + counted(left_out, "row") + " without numbers left out");
   }

@@ -26,6 +26,7 @@ void read_sisph(Table& section, Scene& scene) {
   sisph.momentum = section.choice<Sisph::Momentum>("momentum", momentum_names()).otherwise(sisph.momentum);
   sisph.closure = section.boolean("closure").otherwise(sisph.closure);
   sisph.correction = section.choice<Sisph::Correction>("correction", correction_names()).otherwise(sisph.correction);
+  sisph.coefficients = section.choice<Sisph::Coefficients>("coefficients", coefficient_names()).otherwise(sisph.coefficients);
   sisph.formulation = section.choice<Sisph::Formulation>("formulation", formulation_names()).otherwise(sisph.formulation);
   sisph.paths = section.choice<Sisph::Paths>("paths", path_names()).otherwise(sisph.paths);
   sisph.jump = section.number("jump").within(0.01, 1).otherwise(sisph.jump);
@@ -47,11 +48,16 @@ void check_formulation(Table& section, const Scene& scene) {
   const auto foreign = [&](const char* key, const std::string& belongs, const std::string& help) {
     if (section.has(key)) section.error(key, "'sisph." + std::string(key) + "' is for particles " + belongs + " alone", help);
   };
+  if (scene.time_step > 0 && section.has("courant"))
+    section.context().notes.push_back("sisph.courant counts where the scene names no time.dt: the step is " + rounded(scene.time_step) + " s");
+  if (scene.sisph.momentum == Sisph::Momentum::conservative && scene.sisph.picard < 2)
+    section.error("picard", "with one pass the conservative pressure acts on masses of another time and grows without bound",
+                  "sisph.picard = 2 or more, or another sisph.momentum");
   if (scene.sisph.formulation == Sisph::Formulation::at_rest) {
     for (const char* key : {"paths", "jump"}) foreign(key, "that move", "leave it out, or sisph.formulation = \"moving\"");
     return;
   }
-  for (const char* key : {"momentum", "closure", "newton", "advection", "viscosity", "slip"})
+  for (const char* key : {"momentum", "closure", "newton", "advection", "viscosity", "slip", "coefficients"})
     foreign(key, "at rest", "leave it out, or sisph.formulation = \"at-rest\"");
   const std::string help = "leave it out, or sisph.formulation = \"at-rest\"";
   if (!scene.boundaries.empty()) section.error("formulation", "particles that move know no open boundaries ([[boundary]])", help);

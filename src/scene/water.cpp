@@ -62,6 +62,9 @@ void read_water_state(Table& section, Scene& scene) {
   }
   const Function given = section.function(source).otherwise({});
   if (!given) return;
+  if (source == "depth" && !section.has_text(source) && given(0, 0) < 0)
+    section.error(source, "'water.depth' is " + shown(given(0, 0)) + "; it must be at least 0",
+                  "0 is dry; levels are 'surface', depths are above the bed");
   const Function bed = scene.bed.elevation;
   if (source == "surface") scene.water.surface = given;
   scene.water.depth = given;

@@ -45,8 +45,8 @@ std::vector<PointState> Solver<D>::sample(const std::vector<Point>& points) cons
 }
 
 template <int D>
-double Solver<D>::highest_wet_bed(const Point& point, double radius, double min_depth) const {
-  return highest_wet_level(sorted_water(), level_of_bed_, to_vec<D>(point), radius, min_depth);
+WetLevels Solver<D>::highest_wet_levels(const Point& point, double radius, double min_depth) const {
+  return freshet::highest_wet_levels<D>(sorted_water(), bed_ ? &*bed_ : nullptr, {to_vec<D>(point), radius, min_depth, scene_.water.spacing});
 }
 
 template <int D>
@@ -60,6 +60,7 @@ std::vector<std::string> Solver<D>::features() const {
     names.push_back(paths_ ? "velocity along particle paths" : "momentum carried by the mass fluxes");
   }
   if (conservative_) names.push_back("conservative pressure");
+  if (scene_.sisph.coefficients == Sisph::Coefficients::recomputed) names.push_back("coefficients found anew in every product");
   if (closure_.iterations > 0)
     names.push_back("pair areas closed in " + std::to_string(closure_.iterations) + " iterations, largest change " +
                     std::to_string(closure_.change));

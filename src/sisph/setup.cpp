@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "src/errors.hpp"
+#include "src/scene/names.hpp"
 #include "src/scene/open_law.hpp"
 #include "src/scene/place.hpp"
 #include "src/sisph/beside.hpp"
@@ -197,8 +198,12 @@ void Solver<D>::build_momentum() {
   using Momentum = Sisph::Momentum;
   const int slots = geometry_.images.slots();
   const Sisph& sisph = scene_.sisph;
-  surface_.emplace(geometry_, order_.rows(), SurfaceOptions{scene_.gravity, sisph.theta, sisph.cg.tolerance, sisph.newton.tolerance,
-                                                            sisph.cg.most, sisph.newton.most});
+  const SurfaceOptions options{scene_.gravity, sisph.theta, sisph.cg.tolerance, sisph.newton.tolerance, sisph.cg.most, sisph.newton.most};
+  std::optional<PairSource<D>> source;
+  if (sisph.coefficients == Sisph::Coefficients::recomputed)
+    source = PairSource<D>{kernel_, on_host(Kokkos::subview(particles_.real("h"), std::make_pair(0, 1)))(0), closure_.lambda};
+  closure_.lambda = {};
+  surface_.emplace(geometry_, order_.rows(), options, source);
   active_.emplace(geometry_);
   active_->find(particles_.real("depth"), sisph.picard);
   rim_.emplace(geometry_);
@@ -207,9 +212,9 @@ void Solver<D>::build_momentum() {
   conservative_ = sisph.momentum == Momentum::conservative;
   const bool by_fluxes = conservative_ || sisph.momentum == Momentum::mass_flux ||
                          (sisph.momentum == Momentum::automatic && active_->drying());
-  if (!by_fluxes && active_->drying())
-    throw SceneError("sisph.momentum = \"semi-lagrangian\" needs water everywhere, and " + std::to_string(active_->dry()) +
-                     " particles are dry\n  help: use \"mass-flux\"");
+  if ((conservative_ || !by_fluxes) && active_->drying())  // antisymmetric pressure on a film's mass knows no bound
+    throw SceneError("sisph.momentum = \"" + name_in(momentum_names(), sisph.momentum) + "\" needs water everywhere, and " +
+                     std::to_string(active_->dry()) + " particles are dry\n  help: use \"mass-flux\"");
   if (by_fluxes) {
     fluxes_.emplace(geometry_);
     velocity_gradient_.u = scratch<D>("sisph.grad_u", slots);

@@ -34,12 +34,16 @@ void Solver<D>::step(double t, double dt) {
   measure_speeds();
 }
 
+template <int D>
+void Solver<D>::require_water(const std::string& who_needs) const {
+  if (active_->drying())
+    throw Diverged("a particle fell dry, and " + who_needs + " water everywhere\n  help: sisph.momentum = \"mass-flux\"");
+}
+
 // Section 3 of the formulas: fully wet.
 template <int D>
 void Solver<D>::carry_along_paths(double t, double dt) {
-  if (active_->drying())
-    throw Diverged("a particle fell dry, and velocities carried along particle paths need water everywhere\n"
-                   "  help: sisph.momentum = \"mass-flux\"");
+  require_water("velocities carried along particle paths need");
   const double g = scene_.gravity, theta = scene_.sisph.theta;
   const Water<D> now = water();
   find_slope(now.depth, false);
@@ -66,6 +70,7 @@ template <int D>
 void Solver<D>::carry_by_fluxes(double t, double dt) {
   const double g = scene_.gravity, theta = scene_.sisph.theta;
   const bool drying = active_->drying();
+  if (conservative_) require_water("antisymmetric pressure needs");
   const Water<D> now = water();
   velocity_gradient(geometry_, active_->list(), now, velocity_gradient_);
   surface_->start(now);

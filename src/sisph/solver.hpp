@@ -40,7 +40,7 @@ class Solver : public Method {
   Mechanics mechanics() const override;
   StepReport report() const override { return report_; }
   std::vector<PointState> sample(const std::vector<Point>& points) const override;
-  double highest_wet_bed(const Point& at, double radius, double min_depth) const override;
+  WetLevels highest_wet_levels(const Point& at, double radius, double min_depth) const override;
   std::vector<std::string> features() const override;
   ScalarState scalars() const override;
   void restore(const ScalarState& scalars) override;
@@ -62,6 +62,7 @@ class Solver : public Method {
   std::vector<RimPlace<D>> rim_places() const;
   TracedWater<D> traced() const;
   void meet_boundaries(double t, double dt);
+  void require_water(const std::string& who_needs) const;
   void carry_along_paths(double t, double dt);
   void carry_by_fluxes(double t, double dt);
   void find_slope(const Field<double>& depth, bool drying);

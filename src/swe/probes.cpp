@@ -75,10 +75,9 @@ std::vector<PointState> Solver<D>::sample(const std::vector<Point>& points) cons
 }
 
 template <int D>
-double Solver<D>::highest_wet_bed(const Point& point, double radius, double min_depth) const {
-  const std::optional<Bed<D>> beds = bed();
-  return highest_wet_level(sorted_water<D>(order_.rows(), bind(), kind()), beds ? beds->level : Field<double>(), to_vec<D>(point),
-                           radius, min_depth);
+WetLevels Solver<D>::highest_wet_levels(const Point& point, double radius, double min_depth) const {
+  return freshet::highest_wet_levels<D>(sorted_water<D>(order_.rows(), bind(), kind()), bed_ ? &bed_->spline : nullptr,
+                                        {to_vec<D>(point), radius, min_depth, scene_.water.spacing});
 }
 
 template <int D>

@@ -30,7 +30,7 @@ class Solver : public Method {
   StepReport report() const override { return report_; }
   std::map<std::string, Work> work() const override;  // src/swe/work.cpp
   std::vector<PointState> sample(const std::vector<Point>& points) const override;
-  double highest_wet_bed(const Point& at, double radius, double min_depth) const override;
+  WetLevels highest_wet_levels(const Point& at, double radius, double min_depth) const override;
   std::vector<std::string> features() const override;
   ScalarState scalars() const override;
   void restore(const ScalarState& scalars) override;

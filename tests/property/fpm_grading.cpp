@@ -59,7 +59,9 @@ struct Graded {
       g(i) = -2 * (normal.x(i) * std::sin(a) * std::cos(b) + normal.y(i) * std::cos(a) * std::sin(b));
     }
     Poisson<2> poisson;
-    poisson.assemble(finder.view(), order.rows(), {row, normal});
+    Stencils<2> stencils;
+    stencils.find(finder.view());
+    poisson.assemble(stencils.view(), order.rows(), {row, normal});
     const auto report = poisson.solve({f, g, given}, psi, {});
     CAPTURE(report.solve.iterations, size());
     CHECK(report.solve.converged);

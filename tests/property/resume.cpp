@@ -39,8 +39,8 @@ class Interrupted : public Method {
   std::vector<PointState> sample(const std::vector<Point>& points) const override {
     return method_.sample(points);
   }
-  double highest_wet_bed(const Point& at, double radius, double min_depth) const override {
-    return method_.highest_wet_bed(at, radius, min_depth);
+  WetLevels highest_wet_levels(const Point& at, double radius, double min_depth) const override {
+    return method_.highest_wet_levels(at, radius, min_depth);
   }
   std::vector<std::string> features() const override { return method_.features(); }
   ScalarState scalars() const override { return method_.scalars(); }

@@ -79,11 +79,11 @@ class FakeMethod : public Method {
     return states;
   }
 
-  double highest_wet_bed(const Point& at, double radius, double min_depth) const override {
-    double highest = -1e300;
+  WetLevels highest_wet_levels(const Point& at, double radius, double min_depth) const override {
+    WetLevels highest;
     for (int i = 0; i < fields_.size(); ++i) {
       if (distance(i, at) <= radius && get("depth")(i) >= min_depth)
-        highest = std::max(highest, get("bed")(i));
+        highest.bed = highest.line = std::max(highest.bed, get("bed")(i));
     }
     return highest;
   }

@@ -21,7 +21,7 @@ TEST_CASE("the summary holds the promised keys, errors only where the scene name
   summary.gauges.resize(1);
   summary.gauges[0].name = "ch5";
   summary.gauges[0].rmse = 0.0035;
-  summary.run_ups.push_back({"valley", 0.0875, {}});
+  summary.run_ups.push_back({"valley", 0.0875, 0.0885, {}});
   const std::string text = json(summary);
   for (const char* key : {"case",
                           "method",
@@ -49,7 +49,8 @@ TEST_CASE("the summary holds the promised keys, errors only where the scene name
                           "measured_peak",
                           "arrival",
                           "measured_arrival",
-                          "runup"}) {
+                          "runup",
+                          "waterline"}) {
     CAPTURE(key);
     CHECK(text.find('"' + std::string(key) + "\": ") != std::string::npos);
   }

@@ -183,6 +183,7 @@ TEST_CASE("mistakes on the command line exit with 2 and a suggestion") {
   CHECK(option.code == 2);
   CHECK_THAT(option.err, Contains("did you mean"));
   CHECK(freshet_with({"run", scene, "--threads", "two"}).code == 2);
+  CHECK(freshet_with({"run", scene, "--threads", "9999"}).code == 2);
   CHECK(freshet_with({"run", scene, "--out"}).code == 2);
   CHECK(freshet_with({"run", scene, "--quiet=yes"}).code == 2);
   CHECK(freshet_with({"run", scratch / "missing.toml"}).code == 2);

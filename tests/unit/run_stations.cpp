@@ -103,14 +103,20 @@ TEST_CASE("run-ups keep the highest bed that was wet") {
   const Scene scene = test::fake_scene(1);
   test::FakeMethod method(scene);
   RunUpRecorder run_ups(scene.run_ups);
-  CHECK(run_ups.highest()[0] == -1e300);
+  CHECK(run_ups.highest()[0].bed == -1e300);
   run_ups.record(method);
   // Bed 0.1 x; of the particles at 0.025 + 0.05 k the highest within 0.1 m of x = 0.9 is at 0.975, all are
   // deep enough.
-  CHECK(run_ups.highest()[0] == Approx(0.0975).epsilon(1e-14));
-  const double before = run_ups.highest()[0];
+  CHECK(run_ups.highest()[0].bed == Approx(0.0975).epsilon(1e-14));
+  const double before = run_ups.highest()[0].bed;
   const auto depth = method.fields().real("depth");
   Kokkos::deep_copy(depth, 1e-3);  // thinner than min_depth
   run_ups.record(method);
-  CHECK(run_ups.highest()[0] == before);
+  CHECK(run_ups.highest()[0].bed == before);
+  Values values;
+  run_ups.save(values);
+  RunUpRecorder again(scene.run_ups);
+  again.restore(values);
+  CHECK(again.highest()[0].bed == before);
+  CHECK(again.highest()[0].line == run_ups.highest()[0].line);
 }

@@ -1,6 +1,7 @@
 // Every kind of error of meaning, with its exact place, caret and help.
 #include <catch2/catch.hpp>
 
+#include "src/scene/place.hpp"
 #include "tests/unit/scene_files.hpp"
 
 using namespace freshet;
@@ -196,6 +197,37 @@ TEST_CASE("Expressions do not depend on time") {
 TEST_CASE("A bed that is not a number somewhere is an error that says where") {
   const test::Failure found = failure(pond("[bed]\nz = \"sqrt(4.9 - x)\"\n"));
   CHECK_THAT(found.text, Catch::StartsWith("scene.toml:9:5: error: the bed is not a number at (5, 0)\n"));
+}
+
+TEST_CASE("A boundary whose water lies outside the domain is the wrong way round") {
+  check_error(pond("[[boundary]]\ntype = \"transmissive\"\nline = [[2, 5], [3, 5]]\n"),
+              "scene.toml:10:8: error: the left of 'boundary.0.line', where its water is, lies outside the domain\n"
+              "  line = [[2, 5], [3, 5]]\n"
+              "         ^\n"
+              "  help: reverse its points");
+  CHECK(failure(pond("[[boundary]]\ntype = \"transmissive\"\nline = [[3, 5], [2, 5]]\n")).text == "");
+}
+
+TEST_CASE("A negative depth is an error, a level below zero is not") {
+  const std::string rest = "spacing = 0.5\n[time]\nend = 10\n", box = "[domain]\nbox = [0, 0, 10, 5]\n[water]\n";
+  check_error(box + "depth = -0.5\n" + rest,
+              "scene.toml:4:9: error: 'water.depth' is -0.5; it must be at least 0\n"
+              "  depth = -0.5\n"
+              "          ^\n"
+              "  help: 0 is dry; levels are 'surface', depths are above the bed");
+  CHECK(failure(box + "surface = -0.5\n" + rest + "[bed]\nz = -2\n").text == "");
+  CHECK(failure(box + "depth = \"1 - x\"\n" + rest).text == "");  // dry where negative
+}
+
+TEST_CASE("More particles than the memory holds are refused, with the spacing that would do") {
+  const Scene scene = test::read_text(pond(), {"water.spacing=1e-4"});
+  CHECK_THROWS_WITH(place(scene, scene.water.depth), Catch::Contains("this machine's memory does not hold") &&
+                                                         Catch::Contains("a larger water.spacing than 0.0001 m"));
+}
+
+TEST_CASE("A raster of billions of cells is refused") {
+  const std::string text = failure(pond("[raster]\nspacing = 1e-4\nwhat = [\"depth\"]\n")).text;
+  CHECK_THAT(text, Catch::StartsWith("scene.toml:9:11: error: a raster of cells of 0.0001 m has 5000 million; at most"));
 }
 
 TEST_CASE("Periods need a periodic exact solution") {

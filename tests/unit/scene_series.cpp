@@ -88,7 +88,7 @@ TEST_CASE("A forcing cell that is no number is an error that names its line and 
   CHECK_THAT(data_error("0,1\n5,\n10,3\n", boundary("t = 1, value = 2")),
              Catch::Contains("wave.txt:2: column 2 is missing"));
   CHECK_THAT(data_error("0;0,5\n10;0,7\n", boundary("t = 1, value = 2")),
-             Catch::Contains("'0,5', not a number"));
+             Catch::Contains("'0,5', not a number\n"));
   CHECK_THAT(data_error("", boundary("t = 1, value = 2")), Catch::Contains("'wave.txt' holds no numbers"));
 }
 

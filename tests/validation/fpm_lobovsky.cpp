@@ -37,10 +37,11 @@ struct Record {
 };
 
 Record computed() {
-  test::FlowRun run("fpm_lobovsky");
+  test::FlowRun run("fpm_lobovsky", {"water.spacing=0.005"});  // the sensor is 4.2 mm wide
   Record r;
   while (run.clock.t < 2.9 * time_unit) {
     run.run_to(std::min(2.9 * time_unit, run.clock.t + run.solver.stable_dt()));
+    if (run.clock.t < 2.2 * time_unit) continue;
     r.t.push_back(run.clock.t / time_unit), r.p.push_back(run.solver.gauge(run.scene.gauges)[0].depth / pressure_unit);
   }
   return r;
@@ -56,13 +57,17 @@ TEST_CASE("fpm: a dam break meets the wall when it was measured to and presses a
   Record measured;
   for (const auto& row : rows) measured.t.push_back(row[0]), measured.p.push_back(row[1]);
   const Record ours = computed();
-  // The front crosses a spacing in 4.5 ms, 0.026 in t*: what is shorter is not resolved. The measured peak, 2.84, is a sample of the median.
-  const double crossing = 0.026, peak = ours.highest_mean(crossing), single = *std::max_element(ours.p.begin(), ours.p.end());
+  // The band of the authors' repetitions (their Fig. 20, as AQUAgpusph's example lobovsky_etal_jfs_2014 carries it): the peaks of the curves of
+  // 2.5 %, 50 % and 97.5 % are 2.10, 2.66 and 3.70. Its rise and fall are 1 to 2 ms; a window of
+  // 4.5 ms, 0.026 in t*, is what the front needs for 14 mm.
+  const double lowest = 2.10, highest = 3.70, crossing = 0.026;
+  const double peak = ours.highest_mean(crossing), single = *std::max_element(ours.p.begin(), ours.p.end());
   const double early = ours.mean(2.4, 2.6), late = ours.mean(2.6, 2.8);
   CAPTURE(peak, single, early, late, measured.mean(2.45, 2.6), measured.mean(2.6, 2.8), ours.first_above(0.2), measured.first_above(0.15));
   CHECK(ours.first_above(0.2) == Approx(measured.first_above(0.15)).margin(0.06));
-  CHECK(peak > 2);
-  CHECK(peak < 5);  // 2.84 is missed: 3.1 to 4.7 with spacing, time step and the treatment of thin water; single steps up to 9
+  CHECK(peak > lowest);
+  CHECK(peak < highest);
+  CHECK(single < 9);  // 3.5 to 6.5 with spacings of H / 50 to H / 67 and CFL numbers of 0.12 to 0.18; the steps' own pressures reach 14
   CHECK(early == Approx(measured.mean(2.45, 2.6)).margin(0.6));
   CHECK(late == Approx(measured.mean(2.6, 2.8)).margin(0.45));
 }
