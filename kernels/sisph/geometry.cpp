@@ -56,7 +56,7 @@ struct Moments {
       sum += outer(PairView::load(g.n, e), w);
     });
     const Lane free = free_lanes(g, me), mean = (1.0 / D) * trace(sum);
-    me.store(g.moment, select(Lane(0.5) < free, mean, Lane(regular)));
+    me.store(g.moment, select(Lane(0.5) < free, mean, Lane(regular)) + least_moment);  // a particle without neighbours has no pairs, not NaN
     me.store(g.inverse, inverted(linear ? sum : isotropic(mean, sum)));
   }
 };
@@ -145,11 +145,12 @@ template <int D>
 Geometry<D> measure_geometry(int particles, const AnyKernel<D>& kernel, const GeometryRequest<D>& request) {
   Pairs pairs;
   const PairRequest<D> paired{request.rows, request.x, request.h, support_of<D>(kernel)};
-  const Images<D> images = list_wall_pairs<D>(particles, paired, request.walls, pairs);
+  ImageLists<D> lists;
+  list_wall_pairs<D>(particles, paired, request.walls, pairs, lists);
   const auto field = [&](const std::string& label) { return Field<double>(label, static_cast<size_t>(particles) + lanes); };
   Geometry<D> g{pairs.view(), pairs.template vector_coefficient<D>("sisph.n"), pairs.coefficient("sisph.distance"),
-                pairs.coefficient("sisph.weight"), pairs.coefficient("sisph.area"), images,
-                place_images<D>(particles, paired, request.walls, images), field("sisph.omega"),
+                pairs.coefficient("sisph.weight"), pairs.coefficient("sisph.area"), lists.images,
+                place_images<D>(particles, paired, request.walls, lists), field("sisph.omega"),
                 field("sisph.moment"), field("sisph.free"), sym_field<D>("sisph.inverse", static_cast<size_t>(particles) + lanes), {}};
   list_free_slices(g, request.held);
   const double h = request.h.extent(0) > 0 ? on_host(Kokkos::subview(request.h, std::make_pair(0, 1)))(0) : request.spacing;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/linear/pair_product.hpp"
 #include "kernels/sisph/moving_loops.hpp"
 
 namespace freshet::sisph {
@@ -39,7 +38,8 @@ KOKKOS_FORCEINLINE_FUNCTION double level_at(const BedSpline<D>& bed, const Vec<d
 template <int D>
 MovingWater<D>::MovingWater(int particles, const AnyKernel<D>& kernel, const MirrorWalls<D>& walls, const MovingOptions& options)
     : options_(options), shapes_{kernel, {}, options.held_moment, options.linear}, walls_(walls) {
-  for (Field<double>* f : {&inertia_, &rise_, &last_, &change_, &right_, &diagonal_, &inverse_, &zero_, &g_.omega, &g_.moment, &g_.free})
+  for (Field<double>* f : {&inertia_, &rise_, &last_, &level_, &change_, &correction_, &right_, &diagonal_, &inverse_, &zero_, &g_.omega, &g_.moment,
+                           &g_.free})
     *f = scalar(particles);
   g_.inverse = matrices(particles, Vec<double, D>{});
   const Field<int> all("sisph.slices", static_cast<size_t>((particles + lanes - 1) / lanes));
@@ -65,8 +65,8 @@ void MovingWater<D>::make_room() {
   }
   const int wanted = g_.images.slots(), had = end_.x.extent_int(0) - lanes;
   if (had >= wanted) return;
-  const int room = had > 0 ? wanted + g_.images.count / 4 : wanted;
-  for (VecField<double, D>* v : {&mixed_, &star_, &end_, &g_.x}) make_longer(*v, room);
+  for (VecField<double, D>* v : {&mixed_, &slope_, &end_, &g_.x, &gradient_.u}) make_longer(*v, wanted + g_.images.count / 4);
+  if (D == 2) make_longer(gradient_.v, wanted + g_.images.count / 4);
 }
 
 // Pairs that may be within each other's support as long as they approach by less than the skin [m].
@@ -77,10 +77,11 @@ void MovingWater<D>::list_pairs(const Swarm<D>& now, double skin) {
   shapes_.h = now.h;
   skin_ = skin;
   const PairRequest<D> request{now.rows, now.x, now.h, options_.support + skin / options_.h};
-  g_.images = list_wall_pairs<D>(n, request, walls_, pairs_);
+  list_wall_pairs<D>(n, request, walls_, pairs_, image_lists_);
+  g_.images = image_lists_.images;
   g_.pairs = pairs_.view();
   rows_ = now.rows;
-  listed_ = freshet::sisph::place_images<D>(n, request, walls_, g_.images);
+  listed_ = freshet::sisph::place_images<D>(n, request, walls_, image_lists_);
   make_room();
 }
 
@@ -89,10 +90,11 @@ template <int D>
 void MovingWater<D>::start(const Swarm<D>& now) {
   const Swarm<D> at_n = now;
   const VecField<double, D> end = end_;
-  const Field<double> last = last_, free = g_.free;
+  const Field<double> last = last_, change = change_, free = g_.free;
   Kokkos::parallel_for("sisph::start_step", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) {
         put(end, i, at(at_n.v, i));
         last(i) = at_n.depth(i);
+        change(i) = 0;
         free(i) = at_n.kind(i) > 0 ? 0.0 : 1.0;
       });
 }
@@ -118,7 +120,7 @@ void MovingWater<D>::place(const Swarm<D>& now, const BedSpline<D>* bed, const P
   Kokkos::parallel_for("sisph::rise_of_bed", Range(0, g.pairs.particles), KOKKOS_LAMBDA(int i) {
         Vec<double, D> to = at(at_n.x, i) + dt * (w.start * at(at_n.v, i) + w.end * at(end, i));
         if (remembers) to += (dt * w.before) * at(at_n.before, i);
-        rise(i) = g.free(i) * (level_at(ground, to) - at_n.bed(i));
+        rise(i) = level_at(ground, to) - at_n.bed(i);
       });
 }
 
@@ -134,63 +136,16 @@ void MovingWater<D>::place_images(const Swarm<D>& now) {
       });
 }
 
+// eta_th. Beside the domain depths stay: the surface goes up and down with the bed.
 template <int D>
-void MovingWater<D>::predict(const Swarm<D>& now, double dt) {
-  Kokkos::parallel_for("sisph::predict", Range(0, g_.slices.count),
-                       Predict<D>{g_, now.depth, now.bed.extent(0) > 0 ? now.bed : zero_, now.v, star_, mixed_,
-                                  options_.gravity * dt, options_.theta});
-  g_.images.fill(mixed_);
-}
-
-// The mesh of the system at hand, over the places at n. It is made when first needed, once.
-template <int D>
-void MovingWater<D>::lay_mesh(double stiffness) {
-  if (!mesh_) mesh_.emplace();
-  if (mesh_mass_.extent(0) == 0) mesh_mass_ = scalar(g_.pairs.particles), mesh_depth_ = scalar(g_.pairs.particles);
-  if (!laid_) mesh_->lay(rows_, listed_, g_.pairs.particles);
-  laid_ = true;
-  const Geometry<D> g = g_;
-  const Field<double> inertia = inertia_, mass = mesh_mass_, depth = mesh_depth_;
-  Kokkos::parallel_for("sisph::mesh_rows", Range(0, g.pairs.particles), KOKKOS_LAMBDA(int i) {
-        mass(i) = g.free(i) * inertia(i);
-        depth(i) = g.omega(i) / inertia(i);
+void MovingWater<D>::find_levels(const Swarm<D>& now) {
+  const Swarm<D> at_n = now;
+  const Field<double> bed = now.bed.extent(0) > 0 ? now.bed : zero_, level = level_, change = change_, rise = rise_, free = g_.free;
+  const double theta = options_.theta;
+  Kokkos::parallel_for("sisph::levels", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) {
+        if (free(i) < 0.5) change(i) = rise(i);
+        level(i) = bed(i) + at_n.depth(i) + theta * change(i);
       });
-  mesh_->set(mesh_mass_, mesh_depth_, stiffness);
-}
-
-template <int D>
-linear::CgReport MovingWater<D>::solve_linear(const linear::CgOptions& options, double stiffness) {
-  const auto product = [&](const Field<double>& x, const Field<double>& y) {
-    return sums_.template sum<1, 64>("sisph::product", g_.slices.count,
-                                     linear::PairProduct<SliceList>{g_.pairs, g_.slices, {a_}, diagonal_, g_.free, x, y})[0];
-  };
-  if (!mesh_on_) return cg_.solve(product, linear::Jacobi{inverse_}, right_, change_, options);
-  lay_mesh(stiffness);
-  return cg_.solve(product, linear::JacobiPlus<linear::ParticleMesh<D>>{inverse_, *mesh_}, right_, change_, options);
-}
-
-template <int D>
-void MovingWater<D>::solve_increment(double dt, bool again, MovingReport& report) {
-  constexpr double round_off = 1e-14;  // of omega: water at rest needs no iteration
-  const double stiffness = options_.gravity * options_.theta * options_.theta * dt * dt;
-  const auto norms = sums_.template sum<2, 64>("sisph::increment", g_.slices.count,
-                                               Increment<D>{g_, mixed_, inertia_, rise_, a_, right_, diagonal_, inverse_, stiffness, dt});
-  linear::CgOptions cg;
-  cg.tolerance = options_.cg_tolerance;
-  cg.max_iterations = options_.cg_most;
-  cg.scale = std::max(std::sqrt(norms[0]), round_off / cg.tolerance * std::sqrt(norms[1]));
-  cg.from_zero = !again;
-  const linear::CgReport solved = solve_linear(cg, stiffness);
-  if (solved.iterations > options_.mesh_from || (mesh_on_ && !again)) set_meshed(solved.iterations > options_.mesh_until);
-  ++report.solves;
-  report.iterations += solved.iterations;
-  report.unsettled += solved.converged() ? 0 : 1;
-}
-
-template <int D>
-void MovingWater<D>::correct(const Swarm<D>& now, double dt) {
-  Kokkos::parallel_for("sisph::correct", Range(0, g_.slices.count),
-                       Correct<D>{g_, change_, now.depth, rise_, last_, star_, end_, options_.gravity * options_.theta * dt});
 }
 
 template <int D>
@@ -202,22 +157,55 @@ double MovingWater<D>::find_jump(const VecField<double, D>& v) {
 }
 
 template <int D>
+double MovingWater<D>::find_least_depth() {
+  const Field<double> last = last_;
+  double least = 0;
+  Kokkos::parallel_reduce("sisph::shallowest", Range(0, g_.pairs.particles),
+                          KOKKOS_LAMBDA(int i, double& m) { m = smaller(m, last(i)); }, Kokkos::Min<double>(least));
+  return least;
+}
+
+template <int D>
 void MovingWater<D>::measure_jump(const Swarm<D>& now) {
   list_pairs(now, 0);
   start(now);
   jump_ = find_jump(end_);
 }
 
-// The state at n+1; returns the least depth.
 template <int D>
-double MovingWater<D>::arrive(const Swarm<D>& now, const BedSpline<D>* bed, const PathWeights& path, double dt) {
+MovingReport MovingWater<D>::attempt(const Swarm<D>& now, const BedSpline<D>* bed, const PathWeights& path, double dt) {
+  MovingReport report;
+  list_pairs(now, reach(dt, jump_));
+  followers_.locate(g_.pairs.particles, now.id);
+  laid_ = false;
+  start(now);
+  for (int pass = 0; pass < options_.picard; ++pass) {
+    const double fastest = std::max(jump_, report.jump);
+    if (reach(dt, fastest) > skin_ + 0.1 * options_.spacing) list_pairs(now, reach(dt, 1.2 * fastest));
+    place(now, bed, path, dt);
+    measure_again(g_, shapes_);
+    find_levels(now);
+    predict(now, dt);
+    solve_increment(now, dt, report);
+    if (!report.solved) return report;
+    correct(now, dt);
+    if (pass + 1 == options_.picard) even_out(dt);
+    report.jump = find_jump(end_);
+    report.least_depth = find_least_depth();
+    if (!report.holds()) return report;
+  }
+  tried_ = report.jump;
+  return report;
+}
+
+template <int D>
+void MovingWater<D>::arrive(const Swarm<D>& now, const BedSpline<D>* bed, const PathWeights& path, double dt) {
   const Swarm<D> at_n = now;
   const PathWeights w = path;
   const VecField<double, D> end = end_;
   const Field<double> last = last_, free = g_.free;
   const bool remembers = at_n.before.x.extent(0) > 0;
-  double least = 0;
-  Kokkos::parallel_reduce("sisph::arrive", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i, double& m) {
+  Kokkos::parallel_for("sisph::arrive", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) {
         const Vec<double, D> v = at(at_n.v, i);
         Vec<double, D> to = at(at_n.x, i) + dt * (w.start * v + w.end * at(end, i));
         if (remembers) {
@@ -225,38 +213,14 @@ double MovingWater<D>::arrive(const Swarm<D>& now, const BedSpline<D>* bed, cons
           put(at_n.before, i, v);
         }
         put(at_n.x, i, to);
-        if (free(i) > 0.5) {
-          put(at_n.v, i, at(end, i));
-          at_n.depth(i) = last(i);
-        }
-        m = smaller(m, at_n.depth(i));
-      }, Kokkos::Min<double>(least));
-  if (!bed) return least;
+        put(at_n.v, i, at(end, i));
+        if (free(i) > 0.5) at_n.depth(i) = last(i);
+      });
+  jump_ = tried_;
+  if (!bed) return;
   const BedSpline<D> ground = *bed;
   Kokkos::parallel_for("sisph::find_bed", Range(0, g_.pairs.particles),
                        KOKKOS_LAMBDA(int i) { at_n.bed(i) = level_at(ground, at(at_n.x, i)); });
-  return least;
-}
-
-template <int D>
-MovingReport MovingWater<D>::step(const Swarm<D>& now, const BedSpline<D>* bed, const PathWeights& path, double dt) {
-  MovingReport report;
-  const double at_start = jump_;
-  list_pairs(now, reach(dt, at_start));
-  laid_ = false;
-  start(now);
-  for (int pass = 0; pass < options_.picard; ++pass) {
-    if (pass > 0 && reach(dt, std::max(at_start, jump_)) > skin_ + 0.1 * options_.spacing)
-      list_pairs(now, reach(dt, 1.2 * std::max(at_start, jump_)));
-    place(now, bed, path, dt);
-    measure_again(g_, shapes_);
-    predict(now, dt);
-    solve_increment(dt, pass > 0, report);
-    correct(now, dt);
-    jump_ = find_jump(end_);
-  }
-  report.least_depth = arrive(now, bed, path, dt);
-  return report;
 }
 
 template class MovingWater<1>;

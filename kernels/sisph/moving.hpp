@@ -1,17 +1,22 @@
 // SISPH formulation L: particles of constant mass m that move with the water, omega = m / H; wet everywhere. One step of theta with
-// the geometry at its middle, in Picard passes (H_m: mean of H^n and H^{n+1}, omega_m = m / H_m):
-//   v* = v^n - g dt grad eta^n,   v_th = (1 - theta) v^n + theta v*
-//   (m_i / H_m^2) d eta_i + sum_j a_ij (d eta_i - d eta_j) = -dt omega_m div v_th + (m_i / H_m^2) rise_i
-//   a_ij = g theta^2 dt^2 A_ij / d_ij,   v^{n+1} = v* - g theta dt grad d eta,   H^{n+1} = H^n + d eta - rise
-// rise: of the bed below the particle. The matrix acts on the increment alone: its error on disorder is of the order of dt^2 / l and
-// no closure is needed. Particles beside the domain keep their state and go on with the velocity they have.
+// the geometry at its middle, in Picard passes (H_m: mean of H^n and H^{n+1}, omega_m = m / H_m, eta_th = eta^n + theta d eta):
+//   v_th = (1 - theta) v^n + theta v^{n+1},   v^{n+1} = (v^n - g dt grad eta_th) / (1 + gamma)
+//   (m_i / H_m^2) d eta_i = -dt omega_m div v_th + sum_j (a_ij / theta) [eta_j - eta_i - d_ij n_ij.(grad eta_i + grad eta_j) / 2]_th
+//                           + (m_i / H_m^2) rise_i,         a_ij = g theta^2 dt^2 A_ij / d_ij / (1 + gamma_ij)
+// rise: of the bed below the particle; gamma: dt x friction. Each pass corrects d eta by one solve with m_i / H_m^2 and a_ij. The bracket
+// is a third difference (Rhie and Chow's; in SPH Antuono et al. 2010): it vanishes for any plane surface on any particles, and on a lattice
+// it makes what div grad does not see of short waves part of the matrix. Without it v^{n+1} keeps (1 - (k_div grad / k)^2) of what grad eta^n
+// pushes such waves, more the longer the step, and particles in disorder have modes that grow. No closure is needed.
+// Third differences of v^{n+1} are taken from it: waves between neighbours that neither div nor grad sees pair the particles up.
 #pragma once
 #include <optional>
 
 #include "kernels/bed_spline.hpp"
 #include "kernels/linear/cg.hpp"
 #include "kernels/linear/particle_mesh.hpp"
+#include "kernels/sisph/followers.hpp"
 #include "kernels/sisph/geometry.hpp"
+#include "kernels/sisph/gradient.hpp"
 #include "kernels/sisph/paths.hpp"
 
 namespace freshet::sisph {
@@ -37,12 +42,18 @@ struct Swarm {
   VecField<double, D> x, v, before;  // m, m/s; before: v^{n-1}, empty where no path needs it
   Field<double> depth, mass, bed;    // m, m^(D+1), m; bed empty where it is flat
   Field<double> h;                   // m
-  Field<int> kind;                   // > 0: beside the domain
+  Field<int> id, kind;               // kind > 0: beside the domain
+  Field<double> drag;                // dt gamma; empty without friction
 };
 
+// What a step would come to.
 struct MovingReport {
-  int solves = 0, iterations = 0, unsettled = 0;
+  int passes = 0, solves = 0, iterations = 0;
+  bool solved = true;      // every linear system
+  double residual = 0;     // of the last one, of its right-hand side
   double least_depth = 0;  // m, at n+1
+  double jump = 0;         // m/s, largest |v_i - v_j| of neighbours at n+1
+  bool holds() const { return solved && least_depth > 0; }
 };
 
 template <int D>
@@ -57,22 +68,29 @@ class MovingWater {
   // Whether the next solve has the particle-mesh correction; likewise.
   bool meshed() const { return mesh_on_; }
   void set_meshed(bool on) { mesh_on_ = on; }
+  // Who beside the domain goes with whom.
+  void set_followers(const Followers<D>& followers) { followers_ = followers; }
 
-  // From n to n+1; x, v, depth and bed are written, in the order that they are in. Allocates where neighbours outgrow their room.
-  MovingReport step(const Swarm<D>& now, const BedSpline<D>* bed, const PathWeights& path, double dt);
+  // What the step from n to n+1 comes to; the particles stay as they are. Allocates where neighbours outgrow their room.
+  MovingReport attempt(const Swarm<D>& now, const BedSpline<D>* bed, const PathWeights& path, double dt);
+  // Takes the step that was tried last: x, v, depth and bed are written, in the order that they are in.
+  void arrive(const Swarm<D>& now, const BedSpline<D>* bed, const PathWeights& path, double dt);
 
  public:  // device lambdas may not live in private members
   void list_pairs(const Swarm<D>& now, double skin);
   void start(const Swarm<D>& now);
   void place(const Swarm<D>& now, const BedSpline<D>* bed, const PathWeights& path, double dt);
   void place_images(const Swarm<D>& now);
+  void find_levels(const Swarm<D>& now);
   void predict(const Swarm<D>& now, double dt);
-  void solve_increment(double dt, bool again, MovingReport& report);
+  void solve_increment(const Swarm<D>& now, double dt, MovingReport& report);
+  std::pair<double, double> set_system(const Swarm<D>& now, double dt, double stiffness);
   void lay_mesh(double stiffness);
   linear::CgReport solve_linear(const linear::CgOptions& options, double stiffness);
   void correct(const Swarm<D>& now, double dt);
+  void even_out(double dt);
   double find_jump(const VecField<double, D>& v);
-  double arrive(const Swarm<D>& now, const BedSpline<D>* bed, const PathWeights& path, double dt);
+  double find_least_depth();
 
  private:
   double reach(double dt, double jump) const;
@@ -82,18 +100,24 @@ class MovingWater {
   Shapes<D> shapes_;
   MirrorWalls<D> walls_;
   Pairs pairs_;
+  ImageLists<D> image_lists_;
   Geometry<D> g_;
+  Followers<D> followers_;
   linear::ConjugateGradients cg_;
   OrderedSums sums_;
   std::optional<linear::ParticleMesh<D>> mesh_;  // of the places at n
   bool mesh_on_ = false, laid_ = false;          // laid: over the places of this step
   Rows rows_;
   Field<double> mesh_mass_, mesh_depth_;         // m^(D-1), m: with the mesh alone
-  double jump_ = 0, skin_ = 0;  // m/s; m, by which listed pairs may approach each other
+  double jump_ = 0, tried_ = 0;  // m/s, at n and at n+1 as far as it is known
+  double skin_ = 0;              // m, by which listed pairs may approach each other
+  double scale_ = 0;             // of the first right-hand side of the step
   VecField<double, D> listed_;  // places where pairs were listed, images included
-  VecField<double, D> mixed_, star_, end_;  // v_th, v*, v^{n+1}
-  Field<double> a_;                         // per pair
-  Field<double> inertia_, rise_, last_, change_, right_, diagonal_, inverse_, zero_;  // last: H^{n+1} so far
+  VecField<double, D> mixed_, slope_, end_;  // v_th, grad eta_th, v^{n+1}
+  VelocityGradient<D> gradient_;             // of v^{n+1}
+  Field<double> a_;                          // per pair
+  Field<double> inertia_, rise_, last_, level_, change_, correction_;  // last: H^{n+1} so far; level: eta_th; change: d eta so far
+  Field<double> right_, diagonal_, inverse_, zero_;
 };
 
 }  // namespace freshet::sisph

@@ -49,6 +49,9 @@ SymField<double, 2> symmetric(size_t n, Vec<double, 2>) {
 }
 VecField<double, 1> vectors(size_t n, Vec<double, 1>) { return {Field<double>("sisph.x", n)}; }
 VecField<double, 2> vectors(size_t n, Vec<double, 2>) { return {Field<double>("sisph.x", n), Field<double>("sisph.y", n)}; }
+
+// Room for so many values where there were `held`: some to spare from the second time on.
+size_t roomy(size_t held, int wanted) { return static_cast<size_t>(held > 0 ? wanted + wanted / 4 : wanted); }
 KOKKOS_FORCEINLINE_FUNCTION void put(const SymField<double, 1>& f, int k, const Sym<double, 1>& a) { f.xx(k) = a.xx; }
 KOKKOS_FORCEINLINE_FUNCTION void put(const SymField<double, 2>& f, int k, const Sym<double, 2>& a) {
   f.xx(k) = a.xx, f.xy(k) = a.xy, f.yy(k) = a.yy;
@@ -75,35 +78,39 @@ int count_images(int particles, const WallPairs<D>& visit) {
 }  // namespace
 
 template <int D>
-Images<D> list_wall_pairs(int particles, const PairRequest<D>& request, const MirrorWalls<D>& walls, Pairs& pairs) {
-  if (!walls.given()) {
-    pairs.build<D>(particles, request);
-    return {particles, 0, {}, {}};
+void list_wall_pairs(int particles, const PairRequest<D>& request, const MirrorWalls<D>& walls, Pairs& pairs, ImageLists<D>& lists) {
+  Images<D>& images = lists.images;
+  images.first = particles;
+  if (!walls.given()) return pairs.build<D>(particles, request);
+  if (lists.first.extent_int(0) < particles) lists.first = Field<int>("sisph.first_image", static_cast<size_t>(particles));
+  const WallPairs<D> visit{Nearby<D>(request), walls, lists.first};
+  images.count = count_images(particles, visit);
+  pairs.list(particles, visit, images.count > 0);
+  if (images.source.extent_int(0) < images.count) {
+    const size_t room = roomy(images.source.extent(0), images.count);
+    images.source = Field<int>("sisph.image_source", room);
+    images.reflection = symmetric(room, Vec<double, D>{});
   }
-  const WallPairs<D> visit{Nearby<D>(request), walls, Field<int>("sisph.first_image", static_cast<size_t>(particles))};
-  const int count = count_images(particles, visit);
-  pairs.list(particles, visit, count > 0);
-  const Images<D> images{particles, count, Field<int>("sisph.image_source", static_cast<size_t>(count)),
-                         symmetric(static_cast<size_t>(count), Vec<double, D>{})};
+  const Images<D> found = images;
   Kokkos::parallel_for("sisph::list_images", Range(0, particles), KOKKOS_LAMBDA(int i) {
         if (!visit.near_wall(i)) return;
-        int k = visit.first(i) - images.first;
+        int k = visit.first(i) - found.first;
         visit.for_each_image(i, [&](int j, const Vec<double, D>&, const Sym<double, D>& r) {
-          images.source(k) = j;
-          put(images.reflection, k++, r);
+          found.source(k) = j;
+          put(found.reflection, k++, r);
         });
       });
-  return images;
 }
 
 template <int D>
-VecField<double, D> place_images(int particles, const PairRequest<D>& request, const MirrorWalls<D>& walls, const Images<D>& images) {
+VecField<double, D> place_images(int particles, const PairRequest<D>& request, const MirrorWalls<D>& walls, ImageLists<D>& lists) {
+  const Images<D>& images = lists.images;
   if (images.count == 0) return request.x;
-  const VecField<double, D> from = request.x, to = vectors(static_cast<size_t>(images.slots()) + lanes, Vec<double, D>{});
+  if (lists.x.x.extent_int(0) < images.slots() + lanes) lists.x = vectors(roomy(lists.x.x.extent(0), images.slots()) + lanes, Vec<double, D>{});
+  const VecField<double, D> from = request.x, to = lists.x;
   Kokkos::parallel_for("sisph::copy_places", Range(0, particles), KOKKOS_LAMBDA(int i) { freshet::put(to, i, at(from, i)); });
   // Each image stands where the pair that it belongs to sees it: in the order in which they were listed.
-  const WallPairs<D> visit{Nearby<D>(request), walls, Field<int>("sisph.first_image", static_cast<size_t>(particles))};
-  (void)count_images(particles, visit);
+  const WallPairs<D> visit{Nearby<D>(request), walls, lists.first};
   Kokkos::parallel_for("sisph::place_images", Range(0, particles), KOKKOS_LAMBDA(int i) {
         if (!visit.near_wall(i)) return;
         int slot = visit.first(i);
@@ -112,9 +119,9 @@ VecField<double, D> place_images(int particles, const PairRequest<D>& request, c
   return to;
 }
 
-template Images<1> list_wall_pairs(int, const PairRequest<1>&, const MirrorWalls<1>&, Pairs&);
-template Images<2> list_wall_pairs(int, const PairRequest<2>&, const MirrorWalls<2>&, Pairs&);
-template VecField<double, 1> place_images(int, const PairRequest<1>&, const MirrorWalls<1>&, const Images<1>&);
-template VecField<double, 2> place_images(int, const PairRequest<2>&, const MirrorWalls<2>&, const Images<2>&);
+template void list_wall_pairs(int, const PairRequest<1>&, const MirrorWalls<1>&, Pairs&, ImageLists<1>&);
+template void list_wall_pairs(int, const PairRequest<2>&, const MirrorWalls<2>&, Pairs&, ImageLists<2>&);
+template VecField<double, 1> place_images(int, const PairRequest<1>&, const MirrorWalls<1>&, ImageLists<1>&);
+template VecField<double, 2> place_images(int, const PairRequest<2>&, const MirrorWalls<2>&, ImageLists<2>&);
 
 }  // namespace freshet::sisph

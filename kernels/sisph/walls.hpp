@@ -51,13 +51,21 @@ class MirrorWalls {
   Field<double> corner_;                 // x, y, and both normals: six values each; 1-D: x
 };
 
+// Images, and what finding them needs; listing again keeps the room that there is, more is made with some to spare.
+template <int D>
+struct ImageLists {
+  Images<D> images;    // of the last listing; their fields may be longer
+  Field<int> first;    // slot of the first image that particle i sees
+  VecField<double, D> x;  // m
+};
+
 // Lists the pairs of all particles, those with images included, and finds the images' sources and reflections.
 template <int D>
-Images<D> list_wall_pairs(int particles, const PairRequest<D>& request, const MirrorWalls<D>& walls, Pairs& pairs);
+void list_wall_pairs(int particles, const PairRequest<D>& request, const MirrorWalls<D>& walls, Pairs& pairs, ImageLists<D>& lists);
 
-// The places of particles and, behind them, of their images; the request's own where there are none.
+// The places of particles and, behind them, of the images of the last listing: lists.x, or the request's own where there are none.
 template <int D>
-VecField<double, D> place_images(int particles, const PairRequest<D>& request, const MirrorWalls<D>& walls, const Images<D>& images);
+VecField<double, D> place_images(int particles, const PairRequest<D>& request, const MirrorWalls<D>& walls, ImageLists<D>& lists);
 
 namespace detail {
 KOKKOS_FORCEINLINE_FUNCTION double second(const Vec<double, 1>&) { return 0; }

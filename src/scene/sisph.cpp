@@ -61,7 +61,6 @@ void check_formulation(Table& section, const Scene& scene) {
     foreign(key, "at rest", "leave it out, or sisph.formulation = \"at-rest\"");
   const std::string help = "leave it out, or sisph.formulation = \"at-rest\"";
   if (!scene.boundaries.empty()) section.error("formulation", "particles that move know no open boundaries ([[boundary]])", help);
-  if (scene.manning) section.error("formulation", "particles that move know no friction (bed.manning)", help);
 }
 
 }  // namespace freshet::input

@@ -1,11 +1,23 @@
 // Formulation L: a step of particles that move with the water, and how long it may be.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "src/errors.hpp"
 #include "src/sisph/solver.hpp"
 
 namespace freshet::sisph {
+namespace {
+
+constexpr double unbounded = 1e300;
+
+std::string text(double value) {
+  char out[32];
+  std::snprintf(out, sizeof(out), "%.4g", value);
+  return out;
+}
+
+}  // namespace
 
 // Formulation L: the masses are there; the geometry at rest is of no more use.
 template <int D>
@@ -26,7 +38,35 @@ void Solver<D>::start_moving() {
   if (sisph.paths == Sisph::Paths::rk3)
     for (const char* name : {"u_before", "v_before"})
       if (D == 2 || name[0] == 'u') particles_.real(name, "m/s", Carry::state);
+  if (held_ > 0)
+    moving_->set_followers(Followers<D>(particles_.size(), {order_.rows(), swarm().x, particles_.integer("id"), particles_.integer("kind"),
+                                                            to_vec<D>(scene_.domain.low), to_vec<D>(scene_.domain.high), scene_.water.spacing}));
+  roughen();
   moving_->measure_jump(swarm());
+}
+
+// Friction of the ground that particles move over: by place, or one for all.
+template <int D>
+void Solver<D>::roughen() {
+  if (!scene_.manning) return;
+  const Manning& manning = *scene_.manning;
+  for (Field<double>* f : {&g_n2_, &drag_}) *f = Field<double>("sisph.friction", static_cast<std::size_t>(particles_.size()) + lanes);
+  const double g = scene_.gravity;
+  if (!manning.map) return Kokkos::deep_copy(g_n2_, g * manning.n * manning.n);
+  const auto squared = [&](double x, double y) { const double n = manning.map(x, y); return g * n * n; };
+  ground_ = NearestTable(squared, {scene_.domain.low, scene_.domain.high, manning.node, manning.step});
+}
+
+template <int D>
+void Solver<D>::find_friction(double dt) {
+  if (drag_.extent(0) == 0) return;
+  if (ground_.given()) {
+    const NearestTable ground = ground_;
+    const VecField<double, D> x = swarm().x;
+    const Field<double> g_n2 = g_n2_;
+    Kokkos::parallel_for("sisph::ground", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) { g_n2(i) = ground.at(at(x, i)); });
+  }
+  find_drag<D>(particles_.size(), water(), g_n2_, dt, drag_);
 }
 
 template <int D>
@@ -41,20 +81,63 @@ PathWeights Solver<D>::path(double dt) const {
   return theta_path(scene_.sisph.theta);
 }
 
+// A step, in as many parts as it takes for each to hold: what does not settle, or moves neighbours much further than they should, is
+// tried again with half the step, and steps grow again from there.
 template <int D>
-void Solver<D>::move_with_water(double dt) {
-  const MovingReport r = moving_->step(swarm(), bed_ ? &*bed_ : nullptr, path(dt), dt);
-  last_dt_ = dt;
-  report_.passes += scene_.sisph.picard;
+void Solver<D>::move_with_water(double t, double dt) {
+  constexpr double growth = 1.25, rounding = 1e-9;
+  for (double left = dt; left > 0;) {
+    const double parts = std::max(1.0, std::ceil(left / allowed_ - rounding)), part = left / parts;
+    const MovingReport r = try_to_move(part);
+    if (!holds(r, part)) {
+      shorten(t + dt - left, part, r);
+      continue;
+    }
+    moving_->arrive(swarm(), bed_ ? &*bed_ : nullptr, path(part), part);
+    last_dt_ = part;
+    allowed_ = std::min(growth * allowed_, unbounded);
+    left = parts > 1 ? left - part : 0;
+    settle_order();
+  }
+  report_.newton_max = 1;
+  measure_speeds();
+}
+
+template <int D>
+MovingReport Solver<D>::try_to_move(double dt) {
+  find_friction(dt);
+  const MovingReport r = moving_->attempt(swarm(), bed_ ? &*bed_ : nullptr, path(dt), dt);
+  report_.passes += r.passes;
   report_.solves += r.solves;
   report_.iterations += r.iterations;
-  report_.unsettled += r.unsettled;
-  report_.newton_max = 1;
+  return r;
+}
+
+// Velocities at the end bound the step as well: those at its start do not know what the surface will do.
+template <int D>
+bool Solver<D>::holds(const MovingReport& r, double dt) const {
+  constexpr double slack = 2;
+  return r.holds() && r.jump * dt <= slack * scene_.sisph.jump * scene_.water.spacing;
+}
+
+template <int D>
+void Solver<D>::shorten(double t, double dt, const MovingReport& r) {
+  constexpr double least = 1.0 / 4096;  // of what was asked for
+  allowed_ = 0.5 * dt;
+  ++shortened_;
+  if (allowed_ >= least * longest_step()) return;
+  const std::string last = " of steps shortened to " + text(dt) + " s (" + text(longest_step()) + " s were asked for) ";
+  const std::string when = "at t = " + text(t) + " s ";
+  if (!r.solved)
+    throw Diverged("the free surface did not settle: " + when + "the linear system" + last + "was left with " + text(r.residual) +
+                   " of its right-hand side (sisph.cg.tolerance = " + text(scene_.sisph.cg.tolerance) +
+                   ")\n  help: particles have lost their order or their neighbours: sisph.formulation = \"at-rest\", or a wider "
+                   "sisph.smoothing, or sisph.cg.max above " + std::to_string(scene_.sisph.cg.most));
   if (!(r.least_depth > 0))
-    throw Diverged("a particle fell dry, and particles that move need water everywhere\n"
-                   "  help: sisph.formulation = \"at-rest\", or a shorter step (sisph.jump, time.dt)");
-  settle_order();
-  measure_speeds();
+    throw Diverged("a particle fell dry " + when + "with the last" + last +
+                   "and particles that move need water everywhere\n  help: sisph.formulation = \"at-rest\"");
+  throw Diverged("neighbours part too fast: " + when + "with " + text(r.jump) + " m/s at the end" + last +
+                 "\n  help: sisph.formulation = \"at-rest\", a larger sisph.theta, or a wider sisph.smoothing");
 }
 
 // The order of the places that the particles are in now.
@@ -65,13 +148,25 @@ void Solver<D>::settle_order() {
   if (bed_) level_of_bed_ = particles_.real("bed");
 }
 
+// As far as the waves and the user go.
+template <int D>
+double Solver<D>::longest_step() const {
+  constexpr double rounding = 1 + 1e-9;  // a whole number of steps must not become one more
+  return scene_.time_step > 0 ? rounding * scene_.time_step : scene_.sisph.courant * scene_.water.spacing / std::max(celerity_, 1e-300);
+}
+
 // Velocity differences may move neighbours by sisph.jump of a spacing: more opens gaps.
 template <int D>
 double Solver<D>::moving_dt() const {
-  constexpr double rounding = 1 + 1e-9;  // a whole number of steps must not become one more
-  const double dx = scene_.water.spacing;
-  const double wanted = scene_.time_step > 0 ? rounding * scene_.time_step : scene_.sisph.courant * dx / std::max(celerity_, 1e-300);
-  return std::min(wanted, scene_.sisph.jump * dx / std::max(moving_->jump(), 1e-300));
+  return std::min({longest_step(), allowed_, scene_.sisph.jump * scene_.water.spacing / std::max(moving_->jump(), 1e-300)});
+}
+
+// What had to be done beyond the recipe.
+template <int D>
+std::vector<std::string> Solver<D>::notes() const {
+  if (shortened_ == 0) return {};
+  return {"steps were tried again with half their length " + std::to_string(shortened_) +
+          " times: neighbours would have moved further than sisph.jump allows, or the surface did not settle"};
 }
 
 template class Solver<1>;

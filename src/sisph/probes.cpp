@@ -70,7 +70,7 @@ std::vector<std::string> Solver<D>::features() const {
   if (scene_.manning) names.push_back("friction, implicit");
   if (viscosity_) names.push_back(scene_.sisph.slip ? "viscosity, implicit" : "viscosity, implicit; walls hold the water");
   if (open_) names.push_back(std::to_string(scene_.boundaries.size()) + " open " + (scene_.boundaries.size() == 1 ? "boundary" : "boundaries"));
-  if (held_ > static_cast<int>(open_ ? open_->size() : 0)) names.push_back(moving_ ? "sides that go on with their velocity at t = 0" : "sides held at their state at t = 0");
+  if (held_ > static_cast<int>(open_ ? open_->size() : 0)) names.push_back(moving_ ? "sides that go with the water beside them" : "sides held at their state at t = 0");
   return names;
 }
 
@@ -81,7 +81,7 @@ ScalarState Solver<D>::scalars() const {
           {"solver", {number(report_.passes), number(report_.solves), number(report_.iterations), number(report_.unsettled),
                       number(report_.newton_max)}}};
   if (moving_) {
-    state["moving"] = {moving_->jump(), last_dt_, moving_->meshed() ? 1.0 : 0.0};
+    state["moving"] = {moving_->jump(), last_dt_, moving_->meshed() ? 1.0 : 0.0, allowed_, number(shortened_)};
     return state;
   }
   if (open_) state["rim"] = open_->means();
@@ -103,6 +103,8 @@ void Solver<D>::restore(const ScalarState& state) {
     moving_->set_jump(state.at("moving")[0]);
     last_dt_ = state.at("moving")[1];
     moving_->set_meshed(state.at("moving")[2] > 0);
+    allowed_ = state.at("moving")[3];
+    shortened_ = static_cast<long>(state.at("moving")[4]);
     settle_order();
     return measure_speeds();
   }

@@ -278,7 +278,7 @@ Swarm<D> Solver<D>::swarm() const {
   const bool remembers = f.has("u_before");
   return {order_.rows(), vector_field(f, "x", "y", like), vector_field(f, "u", "v", like),
           remembers ? vector_field(f, "u_before", "v_before", like) : VecField<double, D>{}, f.real("depth"), f.real("mass"),
-          bed_ ? f.real("bed") : Field<double>(), f.real("h"), f.integer("kind")};
+          bed_ ? f.real("bed") : Field<double>(), f.real("h"), f.integer("id"), f.integer("kind"), drag_};
 }
 
 template <int D>

@@ -25,7 +25,7 @@ Solver<D>::Solver(const Scene& scene)
 
 template <int D>
 void Solver<D>::step(double t, double dt) {
-  if (moving_) return move_with_water(dt);
+  if (moving_) return move_with_water(t, dt);
   active_->find(water().depth, scene_.sisph.picard);
   if (paths_)
     carry_along_paths(t, dt);

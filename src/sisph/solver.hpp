@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "kernels/bed_spline.hpp"
+#include "kernels/nearest_table.hpp"
 #include "kernels/sampling.hpp"
 #include "kernels/sisph/active.hpp"
 #include "kernels/sisph/closure.hpp"
@@ -42,6 +43,7 @@ class Solver : public Method {
   std::vector<PointState> sample(const std::vector<Point>& points) const override;
   WetLevels highest_wet_levels(const Point& at, double radius, double min_depth) const override;
   std::vector<std::string> features() const override;
+  std::vector<std::string> notes() const override;
   ScalarState scalars() const override;
   void restore(const ScalarState& scalars) override;
 
@@ -54,8 +56,13 @@ class Solver : public Method {
   void build_openings();
   MirrorWalls<D> mirror_walls() const;
   void start_moving();
-  void move_with_water(double dt);
+  void roughen();
+  void move_with_water(double t, double dt);
+  MovingReport try_to_move(double dt);
+  bool holds(const MovingReport& r, double dt) const;
+  void shorten(double t, double dt, const MovingReport& r);
   void settle_order();
+  double longest_step() const;
   double moving_dt() const;
   PathWeights path(double dt) const;
   Swarm<D> swarm() const;
@@ -71,6 +78,7 @@ class Solver : public Method {
 
  public:  // device lambdas may not live in private members
   void build_geometry();
+  void find_friction(double dt);
   void slow_down(const VecField<double, D>& v);
   void find_viscous(double dt);
   void add_viscous(const VecField<double, D>& v);
@@ -105,6 +113,9 @@ class Solver : public Method {
   std::optional<Viscosity<D>> viscosity_;
   std::optional<MovingWater<D>> moving_;  // formulation L; else absent
   double last_dt_ = 0;                    // s, of the step before: for paths that remember
+  double allowed_ = 1e300;                // s, of moving particles: what has held lately, and something more
+  long shortened_ = 0;                    // steps tried again with half their length
+  NearestTable ground_;                   // g n^2 by place; empty where it is the same everywhere
   Field<double> g_n2_, drag_;  // friction: g n^2 of the ground, dt gamma; empty without
   VecField<double, D> slope_, explicit_, carried_, before_, end_;  // grad eta; velocities, m/s
   VelocityGradient<D> velocity_gradient_;

@@ -2,20 +2,13 @@
 #include <catch2/catch.hpp>
 
 #include "tests/support/recording.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/sisph_cases.hpp"
 
 using namespace freshet;
 using test::Flow;
+using test::moving_scene;
 
 namespace {
-
-Scene moving_scene(int dimension, const freshet::Point& low, const freshet::Point& high, double spacing) {
-  Scene scene = test::bare_scene(dimension, low, high, spacing);
-  scene.method = "sisph";
-  scene.sisph.formulation = Sisph::Formulation::moving;
-  scene.sph.eta = scene.sisph.smoothing;
-  return scene;
-}
 
 // A hump in the middle of water that all moves with (u, v), away from the sides.
 Scene hump(double u = 0, double v = 0) {
@@ -94,6 +87,15 @@ TEST_CASE("sisph moving: a step launches its own passes and allocates nothing") 
   }
   CHECK(labels.count("sisph::place_midway") == 1);
   for (const char* foreign : {"sisph::coefficients", "sisph::advect", "sisph::trace", "sisph::rise_of_bed", "sisph::reflect"}) CHECK(labels.count(foreign) == 0);
+}
+
+TEST_CASE("sisph moving: between walls a step allocates nothing either") {
+  Flow flow(walled_pool());
+  flow.many_steps(5);  // the room for pairs and images is found
+  const test::Recording recording;
+  flow.many_steps(20);
+  CHECK(recording.allocations == std::vector<std::string>{});
+  CHECK(recording.labels().count("sisph::reflect") == 1);
 }
 
 TEST_CASE("sisph moving: particles at rest launch nothing of it") {

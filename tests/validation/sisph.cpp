@@ -3,37 +3,17 @@
 
 #include <cmath>
 
-#include "src/reference/exact.hpp"
-#include "tests/support/run_case.hpp"
+#include "tests/support/sisph_cases.hpp"
 
 using namespace freshet;
 
+using test::at;
+using test::Keys;
+using Result = test::CaseError;
+
 namespace {
 
-using Keys = std::vector<std::string>;
-
-struct Result {
-  double depth_l2;  // m, root mean square over the particles of the domain
-  Summary summary;
-  StepReport report;
-};
-
-Result run(const std::string& name, Keys keys) {
-  const Scene scene = test::read_case(name, keys);
-  const test::CaseRun r = test::finish_case(name, keys);
-  double sum = 0;
-  for (std::size_t i = 0; i < r.fluid.size(); ++i) {
-    const double d = r.fluid.depth[i] - std::max(0.0, scene.compare.exact->at(r.fluid.x[i], r.fluid.y[i], scene.end_time).depth);
-    sum += d * d;
-  }
-  return {std::sqrt(sum / static_cast<double>(r.fluid.size())), r.summary, r.method->report()};
-}
-
-Keys at(int particles, double dt, Keys more = {}) {
-  more.push_back("water.spacing=" + std::to_string(2.0 / particles));
-  more.push_back("time.dt=" + std::to_string(dt));
-  return more;
-}
+Result run(const std::string& name, const Keys& keys) { return test::case_error(name, keys); }
 
 }  // namespace
 
