@@ -44,7 +44,7 @@ class System {
       const double s = side_, along = x_.x(i) / s - 0.4, across = x_.y(i) / s - 0.5;
       right_(i) = std::exp(-30 * along * along - 20 * across * across) + 0.05 * std::sin(12.9898 * i);
     }
-    mesh_.lay(order_.rows(), x_);
+    mesh_.lay(order_.rows(), x_, size());
     cg_.resize(size());
   }
 

@@ -1,9 +1,10 @@
 // One multigrid V-cycle of a 5-point system on the nodes of a box, open or periodic along each axis:
-//   (A c)_n = mass_n c_n + sum over the four faces k_f (c_n - c_m),   mass, k >= 0; nodes with neither are left at zero.
+//   (A c)_n = mass_n c_n + sum over the four faces k_f (c_n - c_m),   mass, k >= 0
+// Nodes with neither are not solved for: their right-hand side has to be 0, and what is found there is interpolated from coarser levels.
 // Two damped Jacobi sweeps before and after, bilinear interpolation to every second node, its transpose as restriction, and on the
 // coarse level the 5-point part of P^T A P. Halved until one node is left: no direct solver. Rows of nodes are contiguous with a
 // halo of one node, so that sweeps run over them without conditions; each row is one index of a launch, the result does not depend on
-// the number of threads. For preconditioners (kernels/linear/point_mesh.hpp).
+// the number of threads. For preconditioners (kernels/linear/mesh_correction.hpp).
 #pragma once
 #include <vector>
 

@@ -22,7 +22,7 @@ void MovingWater<D>::lay_mesh(double stiffness) {
   if (!mesh_) mesh_.emplace();
   if (mesh_mass_.extent(0) == 0)
     for (Field<double>* f : {&mesh_mass_, &mesh_depth_}) *f = Field<double>("sisph.mesh_rows", inertia_.extent(0));
-  if (!laid_) mesh_->lay(rows_, listed_);
+  if (!laid_) mesh_->lay(rows_, listed_, g_.pairs.particles);
   laid_ = true;
   const Geometry<D> g = g_;
   const Field<double> inertia = inertia_, mass = mesh_mass_, depth = mesh_depth_;

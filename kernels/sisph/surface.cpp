@@ -60,7 +60,7 @@ void FreeSurface<D>::set_meshed(bool on) {
   mesh_on_ = on;
   if (!on || mesh_) return;
   mesh_.emplace();
-  mesh_->lay(rows_, g_.x);
+  mesh_->lay(rows_, g_.x, g_.pairs.particles);
   for (Field<double>* f : {&wet_, &mesh_depth_}) *f = Field<double>("sisph.mesh", static_cast<size_t>(g_.pairs.particles) + lanes);
 }
 

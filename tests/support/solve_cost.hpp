@@ -20,7 +20,7 @@ inline SolveCost cost_of(const PairScene& scene, double tolerance) {
     b(i) = s.mass(i) * (std::exp(-30 * std::pow(s.x.x(i) - 0.4, 2) - 20 * std::pow(s.x.y(i) - 0.5, 2)) + 0.1 * random(-1, 1));
   const Field<double> d = a.inverse_diagonal();
   linear::ParticleMesh<2> mesh;
-  mesh.lay(s.order.rows(), s.x);
+  mesh.lay(s.order.rows(), s.x, a.size());
   mesh.set(s.mass, s.depth_field, stiffness(scene));
   linear::ConjugateGradients cg;
   cg.resize(a.size());

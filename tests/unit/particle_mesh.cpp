@@ -1,4 +1,4 @@
-// The multigrid cycle and the particle-mesh preconditioner: symmetric, positive, and few iterations where plain CG takes hundreds.
+// The particle-mesh preconditioner: symmetric, positive, and few iterations where plain CG takes hundreds.
 #include "kernels/linear/particle_mesh.hpp"
 
 #include <catch2/catch.hpp>
@@ -13,88 +13,10 @@ using namespace freshet;
 using linear::CgReport;
 using linear::Jacobi;
 using linear::JacobiPlus;
-using linear::Multigrid5;
 using linear::ParticleMesh;
 using test::PairScene;
 using test::PairSystem;
 using test::RowOperator;
-
-namespace {
-
-// Conductances that differ by place, an island of empty nodes where asked.
-Multigrid5 multigrid(int nx, int ny, double mass, bool island) {
-  Multigrid5 m;
-  m.resize(nx, ny);
-  const linear::FivePoint& a = m.finest();
-  for (int j = 0; j < ny; ++j)
-    for (int i = 0; i < nx; ++i) {
-      const auto dry = [&](int p, int q) { return island && std::abs(p - nx / 3) < nx / 8 && std::abs(q - ny / 2) <= ny / 5; };
-      const int n = j * nx + i;
-      a.mass(n) = dry(i, j) ? 0 : mass;
-      a.east(n) = dry(i, j) || dry(i + 1, j) ? 0 : 1 + 0.5 * std::sin(0.1 * n);
-      a.north(n) = dry(i, j) || dry(i, j + 1) ? 0 : 1 + 0.5 * std::cos(0.2 * n);
-    }
-  m.coarsen();
-  return m;
-}
-
-Eigen::MatrixXd dense(const linear::FivePoint& a) {
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(a.size(), a.size());
-  for (int j = 0; j < a.ny; ++j)
-    for (int i = 0; i < a.nx; ++i) {
-      const int n = j * a.nx + i;
-      matrix(n, n) += a.mass(n);
-      for (const auto& [m, k] : {std::pair(n + 1, a.to_east(i, j)), std::pair(n + a.nx, a.to_north(i, j))})
-        if (k > 0) matrix(n, n) += k, matrix(m, m) += k, matrix(n, m) -= k, matrix(m, n) -= k;
-    }
-  return matrix;
-}
-
-// B as a matrix, a unit vector at a time.
-Eigen::MatrixXd cycle_matrix(Multigrid5& m) {
-  const int n = m.finest().size();
-  Eigen::MatrixXd b(n, n);
-  for (int k = 0; k < n; ++k) {
-    linear::fill(n, 0.0, m.right());
-    m.right()(k) = 1;
-    b.col(k) = test::to_eigen(m.cycle(), n);
-  }
-  return b;
-}
-
-}  // namespace
-
-TEST_CASE("multigrid5: the cycle is symmetric and close to the inverse") {
-  const auto [nx, ny] = GENERATE(std::pair(16, 16), std::pair(17, 9), std::pair(31, 1), std::pair(50, 3), std::pair(21, 24), std::pair(1, 1));
-  const double mass = GENERATE(1e-4, 1e-1, 10.0);
-  Multigrid5 m = multigrid(nx, ny, mass, false);
-  const Eigen::MatrixXd b = cycle_matrix(m), a = dense(m.finest());
-  CHECK((b - b.transpose()).norm() < 1e-12 * b.norm());
-  // I - B A is symmetric in the energy of A: its eigenvalues are those of L^T (..) L.
-  const Eigen::MatrixXd l = a.llt().matrixL();
-  const Eigen::VectorXd spectrum = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(l.transpose() * b * l).eigenvalues();
-  INFO(nx << " x " << ny << " mass " << mass << ": eigenvalues of B A from " << spectrum.minCoeff() << " to " << spectrum.maxCoeff());
-  CHECK(spectrum.minCoeff() > 0.5);  // condition number of the preconditioned system below 4
-  CHECK(spectrum.maxCoeff() < 2.0);
-}
-
-TEST_CASE("multigrid5: empty nodes stay at zero, the rest is solved around them") {
-  Multigrid5 m = multigrid(40, 30, 1e-2, true);
-  const linear::FivePoint& a = m.finest();
-  const Eigen::MatrixXd b = cycle_matrix(m), full = dense(a);
-  std::vector<int> wet;
-  for (int n = 0; n < a.size(); ++n) {
-    if (full(n, n) > 0) wet.push_back(n);
-    else CHECK(m.cycle()(n) == 0);
-  }
-  const Eigen::MatrixXd inner = b(wet, wet);  // nothing ever pulls at an empty node
-  CHECK((inner - inner.transpose()).norm() < 1e-12 * inner.norm());
-  const Eigen::MatrixXd l = Eigen::MatrixXd(full(wet, wet)).llt().matrixL();
-  const Eigen::VectorXd spectrum = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(l.transpose() * inner * l).eigenvalues();
-  INFO("eigenvalues of B A from " << spectrum.minCoeff() << " to " << spectrum.maxCoeff());
-  CHECK(spectrum.minCoeff() > 0.2);  // interpolation runs across the island's rim
-  CHECK(spectrum.maxCoeff() < 2.5);
-}
 
 TEST_CASE("particle mesh: symmetric, positive, and r.z as returned") {
   PairScene scene;
@@ -103,7 +25,7 @@ TEST_CASE("particle mesh: symmetric, positive, and r.z as returned") {
   const PairSystem s = test::pair_system(scene);
   const int n = static_cast<int>(s.omega.size());
   ParticleMesh<2> mesh;
-  mesh.lay(s.order.rows(), s.x);
+  mesh.lay(s.order.rows(), s.x, s.fields.size());
   mesh.set(s.mass, s.depth_field, test::stiffness(scene));
   Eigen::MatrixXd c(n, n);
   for (int k = 0; k < n; ++k) {
@@ -146,12 +68,12 @@ TEST_CASE("particle mesh: allocates nothing once laid") {
   scene.n = 20;
   const PairSystem s = test::pair_system(scene);
   ParticleMesh<2> mesh;
-  mesh.lay(s.order.rows(), s.x);
+  mesh.lay(s.order.rows(), s.x, s.fields.size());
   const Field<double> r("r", s.omega.size()), z("z", s.omega.size());
   mesh.set(s.mass, s.depth_field, 1e-3);
   (void)mesh(r, z);
   test::Recording recording;
-  mesh.lay(s.order.rows(), s.x);
+  mesh.lay(s.order.rows(), s.x, s.fields.size());
   mesh.set(s.mass, s.depth_field, 2e-3);
   (void)mesh(r, z);
   CHECK(recording.allocations.empty());
@@ -162,7 +84,7 @@ TEST_CASE("particle mesh: the worker of the test of threads", "[.]") {
   scene.n = 60;
   const PairSystem s = test::pair_system(scene);
   ParticleMesh<2> mesh;
-  mesh.lay(s.order.rows(), s.x);
+  mesh.lay(s.order.rows(), s.x, s.fields.size());
   mesh.set(s.mass, s.depth_field, test::stiffness(scene));
   const int n = static_cast<int>(s.omega.size());
   const Field<double> r("r", s.omega.size()), z("z", s.omega.size());
@@ -191,7 +113,7 @@ TEST_CASE("particle mesh: a line of particles") {
   Field<double> mass("mass", static_cast<size_t>(n)), depth("depth", static_cast<size_t>(n)), b("b", static_cast<size_t>(n)), out("x", static_cast<size_t>(n));
   for (int i = 0; i < n; ++i) mass(i) = dx, depth(i) = 1, b(i) = dx * std::sin(0.3 * i);
   ParticleMesh<1> mesh;
-  mesh.lay(order.rows(), x);
+  mesh.lay(order.rows(), x, n);
   mesh.set(mass, depth, k);
   linear::ConjugateGradients cg;
   cg.resize(n);
