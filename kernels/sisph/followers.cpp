@@ -20,6 +20,12 @@ Field<int> integers(const std::string& label, int n) { return Field<int>(label, 
 
 template <int D>
 Followers<D>::Followers(int particles, const Start& start) : place_(integers("sisph.place_of_id", particles)) {
+  list(particles, leaders(particles, start));
+  locate(particles, start.id);
+}
+
+template <int D>
+Field<int> Followers<D>::leaders(int particles, const Start& start) const {
   const Field<int> leader = integers("sisph.leader_of_id", particles);
   const Rows rows = start.rows;
   const VecField<double, D> x = start.x;
@@ -41,8 +47,7 @@ Followers<D>::Followers(int particles, const Start& start) : place_(integers("si
           });
         leader(id(i)) = nearest;
       });
-  list(particles, leader);
-  locate(particles, id);
+  return leader;
 }
 
 template <int D>

@@ -23,7 +23,7 @@ Names labels_of(const std::string& scene, const std::vector<std::string>& overri
   const auto iterated = [](const std::string& label) {  // or of the levels of a cycle
     for (const char* solver : {"bicgstab::", "linear::", "box_multigrid::"})
       if (label.rfind(solver, 0) == 0) return true;
-    return std::set<std::string>{"point_mesh::to_nodes", "point_mesh::add_rows", "point_mesh::from_nodes"}.count(label) > 0;
+    return std::set<std::string>{"mesh_correction::to_nodes", "mesh_correction::add_rows", "mesh_correction::from_nodes"}.count(label) > 0;
   };
   for (const auto& label : recording.labels())
     if (!iterated(label)) names.insert(label);
@@ -45,7 +45,7 @@ TEST_CASE("skips: an incompressible step has the launches of its recipe") {
                  "fpm::hold_velocity", "fpm::list",   "fpm::stencils", "fpm::find_rows",   "fpm::fit",            "fpm::guess_pressure", "fpm::predict",
                  "fpm::sources",     "fpm::unknowns", "fpm::rows",    "fpm::right_side",   "fpm::correct",        "fpm::new_state",
                  "fpm::smooth_edges", "fpm::hold_edges",    "fpm::remember_air", "fpm::limit_spray", "fpm::speed"};
-  for (const char* made : {"places", "masses", "add_masses", "conductances", "add_conductances"}) expected.insert(std::string("point_mesh::") + made);
+  for (const char* made : {"places", "masses", "add_masses", "conductances", "add_conductances"}) expected.insert(std::string("mesh_correction::") + made);
   for (const char* sorted : {"extent", "mark", "keep", "clear", "count", "scan", "place", "settle", "permute", "count_clusters", "cut_clusters"})
     expected.insert(std::string("cellgrid::") + sorted);
   CHECK(labels_of("fpm_still_box", inviscid) == expected);
