@@ -24,7 +24,8 @@ struct AssembleRows {
   StencilView<D> stencils;
   PoissonPlaces<D> places;
   linear::ClusterMatrix matrix;
-  Field<double> per_source, per_flux, given;
+  Field<double> per_source, per_flux;
+  Field<int> unknown;
   linear::MeshWeights mesh;
   bool on_mesh;
 
@@ -51,7 +52,7 @@ struct AssembleRows {
     around.for_each(c, [&](int j, const Terms<Lane, D>& m, const Lane& w) {
       const Lane share = w * dot(m, beta);
       matrix.set(c, k++, -share);
-      held += share * given(j);
+      held += share * (1.0 - unknown(j));
     });
     if (on_mesh) weigh(me, has_flux, free, h, equation_weight * dot(r_p, beta), held);
     else matrix.round(c);
@@ -72,20 +73,19 @@ struct AssembleRows {
 template <int D>
 void Poisson<D>::reserve() {
   const int n = around_.points;
-  for (auto* v : {&per_source_, &per_flux_, &b_, &weights_.area, &weights_.weight, &weights_.held, &given_})
+  for (auto* v : {&per_source_, &per_flux_, &b_, &weights_.area, &weights_.weight, &weights_.held})
     if (v->extent_int(0) < n + lanes) *v = Field<double>("fpm.poisson", static_cast<size_t>(n + n / 2 + lanes));
   if (free_.extent_int(0) < n) free_ = Field<int>("fpm.free", static_cast<size_t>(n + n / 2));
 }
 
-// Which values are given, how many are not, and whether a mesh suits the points; returns the longest support.
+// Which values are unknown, how many, and whether a mesh suits the points; returns the longest support.
 template <int D>
 double Poisson<D>::look_at_points() {
   const Field<int> free = free_, row = places_.row;
-  const Field<double> h = around_.h, given = given_;
+  const Field<double> h = around_.h;
   double longest = 0, shortest = 0;
   Kokkos::parallel_reduce("fpm::unknowns", Range(0, around_.points), KOKKOS_LAMBDA(int i, int& unknown, double& most, double& least) {
         free(i) = row(i) != row_value;
-        given(i) = 1 - free(i);
         unknown += free(i);
         most = larger(most, h(i));
         least = smaller(least, h(i));
@@ -108,7 +108,7 @@ void Poisson<D>::assemble(const StencilView<D>& stencils, const Rows& rows, cons
   matrix_.lay_out(around.clusters, around.near, around.points);
   if (!on_mesh_) matrix_.lay_out_rough();
   Kokkos::parallel_for("fpm::rows", Range(0, around.clusters.size()),
-                       AssembleRows<D>{stencils, places, matrix_, per_source_, per_flux_, given_, weights_, on_mesh_});
+                       AssembleRows<D>{stencils, places, matrix_, per_source_, per_flux_, free_, weights_, on_mesh_});
   if (on_mesh_)
     mesh_.build(rows, around.x, around.points, around.period, weights_);
   else

@@ -64,8 +64,7 @@ class Poisson {
   linear::BiCgStab krylov_;
   Field<double> per_source_, per_flux_, b_;
   linear::MeshWeights weights_;
-  Field<double> given_;  // 1 where psi is given
-  Field<int> free_;
+  Field<int> free_;  // 1 where psi is unknown
   OrderedSums sums_;
   int unknowns_ = 0;
   bool singular_ = false;

@@ -27,11 +27,7 @@ PoissonReport Projection::pressure_of_flow(const Flow& flow, const Field<double>
   stencils_.fit(flow.v.x, flow.v_star.x);
   stencils_.fit(flow.v.y, flow.v_star.y);
   const bool slip = rule_.slip;
-  Kokkos::parallel_for("fpm::flow_walls", Range(0, flow.points), KOKKOS_LAMBDA(int i) {
-        if (flow.kind(i) == in_fluid) return;
-        const Vec<double, 2> n = at(flow.normal, i), v = at(flow.v_star, i);
-        put(flow.v_star, i, slip && flow.kind(i) == on_wall ? v - dot(v, n) * n : Vec<double, 2>{});
-      });
+  Kokkos::parallel_for("fpm::flow_walls", Range(0, flow.points), KOKKOS_LAMBDA(int i) { put(flow.v_star, i, held(flow, i, at(flow.v_star, i), slip)); });
   Kokkos::parallel_for("fpm::flow_sources", Range(0, view.around.clusters.size()), FindSources{view, rule_, flow});
   Kokkos::parallel_for("fpm::flow_guess", Range(0, flow.points), KOKKOS_LAMBDA(int i) {
         pressure(i) = flow.p(i);

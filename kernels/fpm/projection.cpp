@@ -31,12 +31,6 @@ KOKKOS_INLINE_FUNCTION bool in_film(const Neighbourhood<2>& around, const Flow& 
   return found;
 }
 
-KOKKOS_FORCEINLINE_FUNCTION Vec<double, 2> held(const Flow& flow, int i, const Vec<double, 2>& v, bool slip) {
-  if (!is_wall(flow.kind(i))) return v;
-  const Vec<double, 2> n = at(flow.normal, i);
-  return slip && flow.kind(i) == on_wall ? v - dot(v, n) * n : Vec<double, 2>{};
-}
-
 // Of velocities next to air, differences with positive weights alone [1/m2 x v]: no stress across the surface. The fitted one there is one-sided
 // and has growing modes whatever the time step.
 KOKKOS_INLINE_FUNCTION Vec<Lane, 2> surface_laplacian(const StencilView<2>& stencils, int c, const VecField<double, 2>& v) {

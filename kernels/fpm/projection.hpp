@@ -42,6 +42,13 @@ struct Flow {
   double expansion = 0;  // 1/s, divergence that v is given; 0 but where area is to be given back
 };
 
+// The velocity [m/s] of point i that walls leave of v: without its part through the wall, nothing in corners and where walls do not slip.
+KOKKOS_FORCEINLINE_FUNCTION Vec<double, 2> held(const Flow& flow, int i, const Vec<double, 2>& v, bool slip) {
+  if (flow.kind(i) == in_fluid) return v;
+  const Vec<double, 2> n = at(flow.normal, i);
+  return slip && flow.kind(i) == on_wall ? v - dot(v, n) * n : Vec<double, 2>{};
+}
+
 // Factors of the backward difference.
 struct Backward {
   double c0, c1, tau;

@@ -48,7 +48,7 @@ struct Swarm {
 
 // What a step would come to.
 struct MovingReport {
-  int passes = 0, solves = 0, iterations = 0;
+  int solves = 0, iterations = 0;  // one solve a pass
   bool solved = true;      // every linear system
   double residual = 0;     // of the last one, of its right-hand side
   double least_depth = 0;  // m, at n+1

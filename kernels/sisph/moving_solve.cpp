@@ -62,7 +62,7 @@ std::pair<double, double> MovingWater<D>::set_system(const Swarm<D>& now, double
 template <int D>
 void MovingWater<D>::solve_increment(const Swarm<D>& now, double dt, MovingReport& report) {
   constexpr double round_off = 1e-14;  // of omega: water at rest needs no iteration
-  const bool again = report.passes > 0;
+  const bool again = report.solves > 0;
   const double stiffness = options_.gravity * options_.theta * options_.theta * dt * dt;
   const auto [right, omega] = set_system(now, dt, stiffness);
   linear::CgOptions cg;
@@ -72,7 +72,6 @@ void MovingWater<D>::solve_increment(const Swarm<D>& now, double dt, MovingRepor
   cg.scale = scale_;
   const linear::CgReport solved = solve_linear(cg, stiffness);
   if (solved.iterations > options_.mesh_from || (mesh_on_ && !again)) set_meshed(solved.iterations > options_.mesh_until);
-  ++report.passes;
   ++report.solves;
   report.iterations += solved.iterations;
   report.residual = solved.residual;

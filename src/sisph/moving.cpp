@@ -107,7 +107,7 @@ template <int D>
 MovingReport Solver<D>::try_to_move(double dt) {
   find_friction(dt);
   const MovingReport r = moving_->attempt(swarm(), bed_ ? &*bed_ : nullptr, path(dt), dt);
-  report_.passes += r.passes;
+  report_.passes += r.solves;
   report_.solves += r.solves;
   report_.iterations += r.iterations;
   return r;
