@@ -1,6 +1,6 @@
 // The axis-aligned box of a cluster's lanes [m]; in 1-D its y is zero.
 #pragma once
-#include "cellgrid/pack.hpp"
+#include "cellgrid/lanes.hpp"
 #include "cellgrid/vec.hpp"
 
 namespace freshet {

@@ -34,6 +34,26 @@ void ClusterSet::cut(const Rows& rows) {
 
 namespace {
 
+// The sources' numbers as plain addresses.
+template <int D>
+struct Sources {
+  const double *x0, *x1, *h;
+  KOKKOS_FORCEINLINE_FUNCTION Sources(const VecField<double, D>& x, const Field<double>& h_of) : x0(x.x.data()), x1(x0), h(h_of.data()) {
+    if constexpr (D == 2) x1 = x.y.data();
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Vec<double, D> x(int j) const {
+    if constexpr (D == 1) return {x0[j]};
+    else return {x0[j], x1[j]};
+  }
+};
+
+// What a cluster's list holds so far; of its parts the places in it.
+struct Listed {
+  int* j;
+  NeighbourView::Place* place[parts_of_cluster];
+  int n, of_part[parts_of_cluster];
+};
+
 // Fills one cluster's slab; what does not fit is counted but not stored. Returns the full length.
 template <int D>
 struct Lister {
@@ -44,6 +64,45 @@ struct Lister {
   double reach;  // factor (1 + margin)
   NeighbourView out;
   int slab;
+  bool by_parts;
+
+  KOKKOS_FORCEINLINE_FUNCTION Listed listed_in(int c) const {
+    Listed listed{&out.list(c, 0), {}, 0, {}};
+    if (by_parts)
+      for (int part = 0; part < parts_of_cluster; ++part) listed.place[part] = &out.part_place(c * parts_of_cluster + part, 0);
+    return listed;
+  }
+
+  // With the sources begin ... end - 1. All by value: places are bytes, and what is written as bytes might be anything in memory.
+  KOKKOS_FORCEINLINE_FUNCTION Listed add(Listed to, const Vec<Lane, D> xi, const Lane reach_i, int begin, int end) const {
+    const Sources<D> there(source_x, source_h);
+    const double far = reach;
+    const int room = slab;
+    const bool of_parts = by_parts;
+    const auto near = [&](int j, int fits) FRESHET_INLINE_LAMBDA {
+      const Vec<Lane, D> d = xi - broadcast(there.x(j));
+      const Lane limit = larger(reach_i, Lane(far) * Lane(there.h[j]));
+      const auto felt = dot(d, d) < limit * limit;
+      if constexpr (parts_of_cluster == 2)
+        if (of_parts) {
+          const bool first = any(felt.low), second = any(felt.high);
+          to.place[0][to.of_part[0]] = to.place[1][to.of_part[1]] = static_cast<NeighbourView::Place>(to.n);
+          to.of_part[0] += fits & (first ? 1 : 0), to.of_part[1] += fits & (second ? 1 : 0);
+          return first || second;
+        }
+      return any(felt);
+    };
+    int j = begin;
+    for (const int sure = smaller(end, begin + room - to.n); j < sure; ++j) {  // these fit in, even if all are near
+      to.j[to.n] = j;
+      to.n += near(j, 1);
+    }
+    for (; j < end; ++j) {
+      to.j[smaller(to.n, room)] = j;  // the slab's last entry takes the overflow
+      to.n += near(j, to.n < room ? 1 : 0);
+    }
+    return to;
+  }
 
   KOKKOS_INLINE_FUNCTION void operator()(int c, int& longest) const {
     const Lanes me = clusters(c);
@@ -53,28 +112,17 @@ struct Lister {
     const double mine = largest(reach_i), theirs = sources.largest_h(b.xlo, b.xhi, b.ylo, b.yhi);
     if (theirs == 0 && mine < sources.support) {  // no source within a tile (each has an h of its own, be it tiny)
       out.length(c) = 0;
+      if (by_parts)
+        for (int part = 0; part < parts_of_cluster; ++part) out.part_length(c * parts_of_cluster + part) = 0;
       return;
     }
     const double far = larger(mine, reach * theirs);
-    int* list = &out.list(c, 0);
-    int n = 0;
-    const auto near = [&](int j) {
-      const Vec<Lane, D> d = xi - broadcast(at(source_x, j));
-      const Lane limit = larger(reach_i, Lane(reach) * Lane(source_h(j)));
-      return any(dot(d, d) < limit * limit);
-    };
-    sources.for_each_run(b.xlo, b.xhi, b.ylo, b.yhi, far, [&](int begin, int end) {
-      int j = begin;
-      for (const int sure = smaller(end, begin + slab - n); j < sure; ++j) {  // these fit in, even if all are near
-        list[n] = j;
-        n += near(j);
-      }
-      for (; j < end; ++j) {
-        list[smaller(n, slab)] = j;  // the slab's last entry takes the overflow
-        n += near(j);
-      }
-    });
+    Listed listed = listed_in(c);
+    sources.for_each_run(b.xlo, b.xhi, b.ylo, b.yhi, far, [&](int begin, int end) { listed = add(listed, xi, reach_i, begin, end); });
+    const int n = listed.n;
     out.length(c) = smaller(n, slab);
+    if (by_parts)
+      for (int part = 0; part < parts_of_cluster; ++part) out.part_length(c * parts_of_cluster + part) = listed.of_part[part];
     longest = larger(longest, n);
   }
 };
@@ -83,10 +131,15 @@ struct Lister {
 
 void NeighbourList::reserve(int clusters) {
   if (view_.length.extent_int(0) >= clusters && view_.list.extent_int(1) > slab_) return;
-  const size_t room = static_cast<size_t>(larger(clusters + clusters / 4, 16));
+  const size_t room = static_cast<size_t>(larger(clusters + clusters / 8, 16));
   view_.length = Field<int>("cellgrid.list_length", room);
   view_.list = {};
-  view_.list = decltype(view_.list)(Kokkos::ViewAllocateWithoutInitializing("cellgrid.list"), room, static_cast<size_t>(slab_ + 1));
+  const size_t width = static_cast<size_t>(slab_ + 1);
+  view_.list = NeighbourView::Lists(Kokkos::ViewAllocateWithoutInitializing("cellgrid.list"), room, width);
+  view_.part_length = {}, view_.part_place = {};
+  if (!lists_parts()) return;
+  view_.part_length = Field<int>("cellgrid.part_length", parts_of_cluster * room);
+  view_.part_place = decltype(view_.part_place)(Kokkos::ViewAllocateWithoutInitializing("cellgrid.part_place"), parts_of_cluster * room, width);
 }
 
 template <int D>
@@ -96,7 +149,7 @@ void NeighbourList::build(const ClusterSet& clusters, const ListRequest<D>& requ
     if (longest > slab_) slab_ = longest + longest / 4;
     reserve(clusters.size());
     const Lister<D> lister{clusters, request.x, request.source_x, request.h, request.source_h, request.source_rows,
-                           request.factor * (1 + request.margin), view_, slab_};
+                           request.factor * (1 + request.margin), view_, slab_, lists_parts()};
     Kokkos::parallel_reduce(label_, balanced(clusters.size()), lister, Kokkos::Max<int>(longest));
   } while (longest > slab_);
 }

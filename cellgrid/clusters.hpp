@@ -1,8 +1,9 @@
 // The cluster list: W consecutive particles of one row are the lanes of a cluster; each cluster has one list of the
 // particles j that any lane can feel, |x_i - x_j| < factor max(h_i, h_j) (1 + margin). With W = 1 it is an ordinary list.
 #pragma once
+#include "cellgrid/distance.hpp"
 #include "cellgrid/order.hpp"
-#include "cellgrid/pack.hpp"
+#include "cellgrid/lanes.hpp"
 #include "cellgrid/vec.hpp"
 
 namespace freshet {
@@ -13,41 +14,16 @@ struct Lanes {
 
   KOKKOS_FORCEINLINE_FUNCTION int particle(int lane) const { return first + (lane < count ? lane : count - 1); }
 
-  KOKKOS_FORCEINLINE_FUNCTION Lane load(const Field<double>& f) const {
-    Lane value;
-#if defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP) || defined(FRESHET_SCALAR)
-    value = f(first);
-#else
-    if (count == lanes)
-      __builtin_memcpy(&value, f.data() + first, sizeof(value));
-    else
-      for (int l = 0; l < lanes; ++l) value.set(l, f(particle(l)));
-#endif
-    return value;
-  }
-
-  KOKKOS_FORCEINLINE_FUNCTION LaneIndex load(const Field<int>& f) const {
-    LaneIndex value;
-#if defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP) || defined(FRESHET_SCALAR)
-    value = f(first);
-#else
-    if (count == lanes)
-      __builtin_memcpy(&value, f.data() + first, sizeof(value));
-    else
-      for (int l = 0; l < lanes; ++l) value.set(l, f(particle(l)));
-#endif
-    return value;
-  }
-
+  KOKKOS_FORCEINLINE_FUNCTION Lane load(const Field<double>& f) const { return load<Lane>(f); }
+  KOKKOS_FORCEINLINE_FUNCTION LaneIndex load(const Field<int>& f) const { return load<LaneIndex>(f); }
   KOKKOS_FORCEINLINE_FUNCTION void store(const Field<double>& f, Lane value) const {
-#if defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP) || defined(FRESHET_SCALAR)
-    f(first) = value;
-#else
+    double* to = f.data() + first;
     if (count == lanes)
-      __builtin_memcpy(f.data() + first, &value, sizeof(value));
+      freshet::store(to, value);
     else
-      for (int l = 0; l < count; ++l) f(first + l) = value[l];
-#endif
+      for_each_lane(value, [&](int lane, double one) {
+        if (lane < count) to[lane] = one;
+      });
   }
 
   KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 1> load(const VecField<double, 1>& f) const { return {load(f.x)}; }
@@ -67,14 +43,40 @@ struct Lanes {
     store(f.xy, a.xy);
     store(f.yy, a.yy);
   }
+
+ private:
+  template <class V, class T>
+  KOKKOS_FORCEINLINE_FUNCTION V load(const Field<T>& f) const {
+    if (count == lanes) return loaded<V>(f.data() + first);
+    return lanes_of<V>([&](int lane) { return f(particle(lane)); });
+  }
 };
 
+// Without what stands in lanes beyond the last particle.
+KOKKOS_FORCEINLINE_FUNCTION double sum_of(const Lanes& me, Lane a) {
+  double total = 0;
+  for_each_lane(a, [&](int lane, double one) {
+    if (lane < me.count) total += one;
+  });
+  return total;
+}
+
 // One value in every lane: the neighbour's side of a pair.
-KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 1> broadcast(const Vec<double, 1>& a) { return {Lane(a.x)}; }
-KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 2> broadcast(const Vec<double, 2>& a) { return {Lane(a.x), Lane(a.y)}; }
-KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 1> broadcast(const SymField<double, 1>& f, int j) { return {Lane(f.xx(j))}; }
-KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 2> broadcast(const SymField<double, 2>& f, int j) {
-  return {Lane(f.xx(j)), Lane(f.xy(j)), Lane(f.yy(j))};
+template <class V = Lane>
+KOKKOS_FORCEINLINE_FUNCTION Vec<V, 1> broadcast(const Vec<double, 1>& a) {
+  return {V(a.x)};
+}
+template <class V = Lane>
+KOKKOS_FORCEINLINE_FUNCTION Vec<V, 2> broadcast(const Vec<double, 2>& a) {
+  return {V(a.x), V(a.y)};
+}
+template <class V = Lane>
+KOKKOS_FORCEINLINE_FUNCTION Sym<V, 1> broadcast(const SymField<double, 1>& f, int j) {
+  return {V(f.xx(j))};
+}
+template <class V = Lane>
+KOKKOS_FORCEINLINE_FUNCTION Sym<V, 2> broadcast(const SymField<double, 2>& f, int j) {
+  return {V(f.xx(j)), V(f.xy(j)), V(f.yy(j))};
 }
 
 // All particles cut into clusters, row by row.
@@ -91,8 +93,21 @@ class ClusterSet {
 
 // The lists as the device sees them.
 struct NeighbourView {
+  using Lists = Kokkos::View<int**, Kokkos::LayoutRight, Memory>;
   Field<int> length;
-  Kokkos::View<int**, Kokkos::LayoutRight, Memory> list;
+  Lists list;
+  // Of each part of a cluster the places in its list of those that the part's lanes can feel, a third fewer: row cluster * parts + part.
+  // Empty where packs are one register, nobody asked, or lists are longer than places can say.
+  using Place = std::uint8_t;
+  Field<int> part_length;
+  Kokkos::View<Place**, Kokkos::LayoutRight, Memory> part_place;
+
+  KOKKOS_FORCEINLINE_FUNCTION NearList of(int cluster) const { return {&list(cluster, 0), nullptr, length(cluster)}; }
+  KOKKOS_FORCEINLINE_FUNCTION NearList of(int cluster, int part) const {
+    if (parts_of_cluster == 1 || part_length.extent(0) == 0) return of(cluster);
+    const int row = cluster * parts_of_cluster + part;
+    return {&list(cluster, 0), &part_place(row, 0), part_length(row)};
+  }
 
   template <class Pair>
   KOKKOS_FORCEINLINE_FUNCTION void for_each(int cluster, const Pair& pair) const {
@@ -119,7 +134,9 @@ inline constexpr Cost list_cost{15.5, 4, 3};
 
 class NeighbourList {
  public:
-  explicit NeighbourList(int slab = 96, const char* label = "cellgrid::list") : slab_(slab), label_(label) {}
+  // by_parts: lists of the parts of clusters too, where packs are several registers.
+  explicit NeighbourList(int slab = 96, const char* label = "cellgrid::list", bool by_parts = true)
+      : slab_(slab), label_(label), by_parts_(by_parts && parts_of_cluster > 1) {}
 
   // Lists every cluster's neighbours (a particle is its own neighbour). Slabs grow when a list overflows: no pair is lost.
   template <int D>
@@ -134,8 +151,10 @@ class NeighbourList {
 
  private:
   void reserve(int clusters);
+  bool lists_parts() const { return by_parts_ && slab_ < 256; }  // NeighbourView::Place
   int slab_;
   const char* label_;  // of the launch
+  bool by_parts_;
   NeighbourView view_;
 };
 

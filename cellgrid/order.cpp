@@ -181,12 +181,11 @@ int RowOrder::keep_blocks(const FieldSet& particles) {
   const Keys keys{rows_, x_, y_, id_, dimension_ == 2};
   Kokkos::parallel_for("cellgrid::mark", Range(0, (n + lanes - 1) / lanes), KOKKOS_LAMBDA(int b) {
         const Lanes me{b * lanes, smaller(lanes, n - b * lanes)};
-        const LaneIndex all = keys(me);
-        for (int l = 0; l < me.count; ++l) {
-          const int k = lane_of(all, l);
-          key(me.first + l) = k;
+        for_each_lane(keys(me), [&](int lane, int k) {
+          if (lane >= me.count) return;
+          key(me.first + lane) = k;
           if (k >= 0 && mark(k / Rows::block_bins) == 0) mark(k / Rows::block_bins) = 1;
-        }
+        });
       });
   Kokkos::parallel_scan("cellgrid::keep", Range(0, blocks / Blocks::run + 1), KOKKOS_LAMBDA(int run, int& sum, bool last) {
         const Blocks here{mark, block, run * Blocks::run, smaller((run + 1) * Blocks::run, blocks + 1)};

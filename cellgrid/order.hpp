@@ -3,7 +3,7 @@
 // Bins are kept by blocks, and only blocks that hold a particle: dry land between waters costs one number per block.
 #pragma once
 #include "cellgrid/fields.hpp"
-#include "cellgrid/pack.hpp"
+#include "cellgrid/lanes.hpp"
 #include "cellgrid/work.hpp"
 
 namespace freshet {

@@ -1,274 +1,318 @@
-// pack<T, W>: W values computed in step, on the compiler's vector extensions. A pair body written for a value type V
-// runs with V = pack<double, 8> on a CPU and with V = double on a GPU or as the scalar reference.
+// pack<T, W>: W values computed in step, in as many of the processor's registers as they need (eight doubles: one with AVX-512,
+// two with AVX2, four with SSE and NEON). Here: one register. The one file that knows instruction sets; all else asks by name.
 // Every object that passes packs must be compiled with the same instruction-set flags.
 #pragma once
 #include <cmath>
+#include <type_traits>
+#include <utility>
 
 #include "cellgrid/types.hpp"
 
-#if defined(__AVX512F__) && !defined(FRESHET_SCALAR)
+#if defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP)
+#define FRESHET_DEVICE  // whose compilers take no vector types
+#else
+#ifdef __x86_64__
 #include <immintrin.h>
-#define FRESHET_AVX512
 #endif
 
 namespace freshet {
 
-// Lanes per cluster: one 64-byte register of doubles on a CPU, plain scalars elsewhere.
-#if defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP) || defined(FRESHET_SCALAR)
-inline constexpr int lanes = 1;
+// The widest register that this build may use [bytes], and its name.
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512BW__) && defined(__AVX512VL__)
+inline constexpr int register_bytes = 64;
+inline constexpr const char* instruction_set = "AVX-512";
+#elif defined(__AVX2__) && defined(__FMA__)
+inline constexpr int register_bytes = 32;
+inline constexpr const char* instruction_set = "AVX2";
 #else
-inline constexpr int lanes = 8;
+inline constexpr int register_bytes = 16;
+#if defined(__x86_64__)
+inline constexpr const char* instruction_set = "SSE";
+#elif defined(__ARM_NEON)
+inline constexpr const char* instruction_set = "NEON";
+#else
+inline constexpr const char* instruction_set = "128-bit registers";
+#endif
 #endif
 
-template <class T, int W>
-struct vector_of {
-  typedef T type __attribute__((vector_size(W * sizeof(T))));
-};
+#if defined(__FMA__) || defined(__ARM_NEON)
+inline constexpr bool multiplies_and_adds_at_once = true;
+#else
+inline constexpr bool multiplies_and_adds_at_once = false;
+#endif
+
+// The name of the best that the machine has which the program runs on.
+inline const char* machine_instruction_set() {
+#ifdef __x86_64__
+  const bool wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                    __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
+  if (wide) return "AVX-512";
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") ? "AVX2" : "SSE";
+#else
+  return instruction_set;
+#endif
+}
+
+// ---- Words on one register: g++ makes single instructions of most; what it does not is written out beneath ---------------
+namespace registers {
 
 template <class T, int W>
-struct pack {
-  using Vector = typename vector_of<T, W>::type;
+struct VectorOf {
+  typedef T type __attribute__((vector_size(W * sizeof(T))));
+};
+template <class T, int W>
+using Vector = typename VectorOf<T, W>::type;
+template <class V>
+using Element = std::decay_t<decltype(std::declval<V>()[0])>;
+template <class V>
+inline constexpr int width = sizeof(V) / sizeof(Element<V>);
+
+// The bits of a value as a whole number, and its sign.
+template <class T>
+using WholeOf = std::conditional_t<sizeof(T) == 8, unsigned long long, unsigned>;
+template <class V>
+using Bits = Vector<WholeOf<Element<V>>, width<V>>;
+template <class V>
+inline constexpr WholeOf<Element<V>> sign = WholeOf<Element<V>>(1) << (8 * sizeof(Element<V>) - 1);
+
+template <class V>
+KOKKOS_FORCEINLINE_FUNCTION auto less(V a, V b) {
+  return a < b;
+}
+template <class M, class V>
+KOKKOS_FORCEINLINE_FUNCTION V select(M m, V a, V b) {
+  return m ? a : b;
+}
+template <class V>
+KOKKOS_FORCEINLINE_FUNCTION V smaller(V a, V b) {
+  return a < b ? a : b;
+}
+template <class V>
+KOKKOS_FORCEINLINE_FUNCTION V larger(V a, V b) {
+  return b < a ? a : b;
+}
+#ifdef __x86_64__  // of a maximum with zero g++ makes a comparison and a bitwise and
+using Doubles2 = Vector<double, 2>;
+KOKKOS_FORCEINLINE_FUNCTION Doubles2 larger(Doubles2 a, Doubles2 b) { return (Doubles2)_mm_max_pd((__m128d)a, (__m128d)b); }
+#endif
+#ifdef __AVX__
+using Doubles4 = Vector<double, 4>;
+KOKKOS_FORCEINLINE_FUNCTION Doubles4 larger(Doubles4 a, Doubles4 b) { return (Doubles4)_mm256_max_pd((__m256d)a, (__m256d)b); }
+#endif
+template <class M, class V>
+KOKKOS_FORCEINLINE_FUNCTION V larger_where(M m, V a, V b) {
+  return larger(a, select(m, b, a));
+}
+template <class V>
+KOKKOS_FORCEINLINE_FUNCTION V turned_by(V a, V b) {
+  return (V)((Bits<V>)a ^ ((Bits<V>)b & sign<V>));
+}
+template <class V>
+KOKKOS_FORCEINLINE_FUNCTION V size_of(V a) {
+  return (V)((Bits<V>)a & ~sign<V>);
+}
+template <class V>
+KOKKOS_FORCEINLINE_FUNCTION V root(V a) {
+  for (int l = 0; l < width<V>; ++l) a[l] = sizeof(Element<V>) == 8 ? __builtin_sqrt(a[l]) : __builtin_sqrtf(a[l]);
+  return a;
+}
+template <class V>
+KOKKOS_FORCEINLINE_FUNCTION V rsqrt(V a) {
+  return Element<V>(1) / root(a);
+}
+template <class To, class V>
+KOKKOS_FORCEINLINE_FUNCTION auto convert(V a) {
+  return __builtin_convertvector(a, Vector<To, width<V>>);
+}
+// The bits of a positive double read as a number, and back; without the last twenty of them, which leaves 2^-32 of the value.
+template <class V>
+KOKKOS_FORCEINLINE_FUNCTION V bits_as_number(V a) {
+  const V two52 = V{} + 0x1p52;
+  return ((V)(((Bits<V>)a >> 20) | (Bits<V>)two52) - two52) * 0x1p20;
+}
+template <class V>
+KOKKOS_FORCEINLINE_FUNCTION V number_as_bits(V a) {
+  return (V)((Bits<V>)(a * 0x1p-20 + 0x1p52) << 20);
+}
+// The truth values of all lanes, a bit each.
+template <class M>
+KOKKOS_FORCEINLINE_FUNCTION unsigned signs(M m) {
+  unsigned bits = 0;
+  for (int l = 0; l < width<M>; ++l) bits |= static_cast<unsigned>(m[l] != 0) << l;
+  return bits;
+}
+#ifdef __x86_64__
+using Truths2 = decltype(Vector<double, 2>{} < Vector<double, 2>{});
+KOKKOS_FORCEINLINE_FUNCTION unsigned signs(Truths2 m) { return static_cast<unsigned>(_mm_movemask_pd((__m128d)m)); }
+#endif
+#ifdef __AVX__
+using Truths4 = decltype(Vector<double, 4>{} < Vector<double, 4>{});
+KOKKOS_FORCEINLINE_FUNCTION unsigned signs(Truths4 m) { return static_cast<unsigned>(_mm256_movemask_pd((__m256d)m)); }
+#endif
+template <class M>
+KOKKOS_FORCEINLINE_FUNCTION int count(M m) {
+  return __builtin_popcount(signs(m));
+}
+template <class M>
+KOKKOS_FORCEINLINE_FUNCTION bool any(M m) {
+  return signs(m) != 0;
+}
+template <class V, class I>
+KOKKOS_FORCEINLINE_FUNCTION V gather(const Element<V>* table, I index) {
+  V value;
+  for (int l = 0; l < width<V>; ++l) value[l] = table[index[l]];
+  return value;
+}
+template <class V>
+KOKKOS_FORCEINLINE_FUNCTION V first_four(const float* from) {
+  return V{from[0], from[1], from[2], from[3]};
+}
+template <class V>
+KOKKOS_FORCEINLINE_FUNCTION V together(V a) {
+#if defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__)
+  return __builtin_assoc_barrier(a);
+#else
+  return a;
+#endif
+}
+
+#ifdef __AVX512F__
+// The maskz forms with every lane on are the plain instructions; g++ 12 warns falsely of the plain forms.
+using Doubles = Vector<double, 8>;
+using Floats = Vector<float, 16>;
+inline constexpr __mmask8 all8 = 0xff;
+inline constexpr __mmask16 all16 = 0xffff;
+KOKKOS_FORCEINLINE_FUNCTION __mmask8 less(Doubles a, Doubles b) { return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LT_OQ); }
+KOKKOS_FORCEINLINE_FUNCTION __mmask16 less(Floats a, Floats b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ); }
+KOKKOS_FORCEINLINE_FUNCTION Doubles select(__mmask8 m, Doubles a, Doubles b) {
+  return (Doubles)_mm512_mask_blend_pd(m, (__m512d)b, (__m512d)a);
+}
+KOKKOS_FORCEINLINE_FUNCTION Floats select(__mmask16 m, Floats a, Floats b) {
+  return (Floats)_mm512_mask_blend_ps(m, (__m512)b, (__m512)a);
+}
+KOKKOS_FORCEINLINE_FUNCTION Doubles smaller(Doubles a, Doubles b) {
+  return (Doubles)_mm512_maskz_min_pd(all8, (__m512d)a, (__m512d)b);
+}
+KOKKOS_FORCEINLINE_FUNCTION Floats smaller(Floats a, Floats b) { return (Floats)_mm512_maskz_min_ps(all16, (__m512)a, (__m512)b); }
+KOKKOS_FORCEINLINE_FUNCTION Doubles larger(Doubles a, Doubles b) {
+  return (Doubles)_mm512_maskz_max_pd(all8, (__m512d)a, (__m512d)b);
+}
+KOKKOS_FORCEINLINE_FUNCTION Floats larger(Floats a, Floats b) { return (Floats)_mm512_maskz_max_ps(all16, (__m512)a, (__m512)b); }
+KOKKOS_FORCEINLINE_FUNCTION Doubles larger_where(__mmask8 m, Doubles a, Doubles b) {
+  return (Doubles)_mm512_mask_max_pd((__m512d)a, m, (__m512d)a, (__m512d)b);
+}
+KOKKOS_FORCEINLINE_FUNCTION Floats larger_where(__mmask16 m, Floats a, Floats b) {
+  return (Floats)_mm512_mask_max_ps((__m512)a, m, (__m512)a, (__m512)b);
+}
+// One instruction on the bits (0x78: a ^ (b & c)).
+KOKKOS_FORCEINLINE_FUNCTION Doubles turned_by(Doubles a, Doubles b) {
+  return (Doubles)_mm512_ternarylogic_epi64((__m512i)a, (__m512i)b, _mm512_set1_epi64(static_cast<long long>(1ull << 63)), 0x78);
+}
+KOKKOS_FORCEINLINE_FUNCTION Floats turned_by(Floats a, Floats b) {
+  return (Floats)_mm512_ternarylogic_epi32((__m512i)a, (__m512i)b, _mm512_set1_epi32(static_cast<int>(1u << 31)), 0x78);
+}
+KOKKOS_FORCEINLINE_FUNCTION Doubles root(Doubles a) { return (Doubles)_mm512_maskz_sqrt_pd(all8, (__m512d)a); }
+KOKKOS_FORCEINLINE_FUNCTION Floats root(Floats a) { return (Floats)_mm512_maskz_sqrt_ps(all16, (__m512)a); }
+// 14-bit estimates; the terms up to e^2 leave 5.7e-13, those up to e leave single precision.
+KOKKOS_FORCEINLINE_FUNCTION Doubles rsqrt(Doubles a) {
+  const Doubles y = (Doubles)_mm512_maskz_rsqrt14_pd(all8, (__m512d)a), e = 1.0 - a * y * y;
+  return y + y * e * (0.5 + 0.375 * e);
+}
+KOKKOS_FORCEINLINE_FUNCTION Floats rsqrt(Floats a) {
+  const Floats y = (Floats)_mm512_maskz_rsqrt14_ps(all16, (__m512)a);
+  return y * (1.5f - 0.5f * a * y * y);
+}
+KOKKOS_FORCEINLINE_FUNCTION Doubles bits_as_number(Doubles a) { return __builtin_convertvector((Vector<long long, 8>)a, Doubles); }
+KOKKOS_FORCEINLINE_FUNCTION Doubles number_as_bits(Doubles a) { return (Doubles)__builtin_convertvector(a, Vector<long long, 8>); }
+KOKKOS_FORCEINLINE_FUNCTION bool any(__mmask8 m) { return m != 0; }
+KOKKOS_FORCEINLINE_FUNCTION bool any(__mmask16 m) { return m != 0; }
+KOKKOS_FORCEINLINE_FUNCTION int count(__mmask8 m) { return __builtin_popcount(m); }
+KOKKOS_FORCEINLINE_FUNCTION int count(__mmask16 m) { return __builtin_popcount(m); }
+template <>
+KOKKOS_FORCEINLINE_FUNCTION Doubles gather<Doubles>(const double* table, Vector<int, 8> index) {
+  return (Doubles)_mm512_mask_i32gather_pd(_mm512_setzero_pd(), all8, (__m256i)index, table, 8);
+}
+template <>
+KOKKOS_FORCEINLINE_FUNCTION Floats first_four<Floats>(const float* from) {
+  return (Floats)_mm512_castps128_ps512(_mm_load_ps(from));
+}
+#endif
+
+}  // namespace registers
+
+// ---- Packs of one register; lanes.hpp has those of more ---------------------------------------------------------------------
+// B: bytes of a register; tests ask for other ones than the machine's.
+template <class T, int W, int B = register_bytes, bool one = (W * sizeof(T) <= B)>
+struct pack;
+
+// The lanes' truth values.
+template <class P, bool one = P::one_register>
+struct LaneMask {
+  using Bits = decltype(registers::less(std::declval<typename P::Vector>(), std::declval<typename P::Vector>()));
+  Bits bits;
+  friend KOKKOS_FORCEINLINE_FUNCTION LaneMask operator&(LaneMask a, LaneMask b) { return {static_cast<Bits>(a.bits & b.bits)}; }
+  friend KOKKOS_FORCEINLINE_FUNCTION LaneMask operator|(LaneMask a, LaneMask b) { return {static_cast<Bits>(a.bits | b.bits)}; }
+  friend KOKKOS_FORCEINLINE_FUNCTION LaneMask operator!(LaneMask a) { return {static_cast<Bits>(~a.bits)}; }
+  friend KOKKOS_FORCEINLINE_FUNCTION bool any(LaneMask m) { return registers::any(m.bits); }
+  friend KOKKOS_FORCEINLINE_FUNCTION int count(LaneMask m) { return registers::count(m.bits); }
+};
+
+template <class T, int W, int B>
+struct pack<T, W, B, true> {
+  static constexpr bool one_register = true;
+  using Vector = registers::Vector<T, W>;
+  using Mask = LaneMask<pack>;
   Vector v;
 
   pack() = default;
-  pack(T scalar) : v(scalar - Vector{}) {}  // broadcast: implicit, so that bodies read alike for scalars and packs
-  pack(Vector vector) : v(vector) {}
+  KOKKOS_FORCEINLINE_FUNCTION pack(T scalar) : v(scalar - Vector{}) {}  // implicit: bodies read alike for scalars and packs
+  explicit KOKKOS_FORCEINLINE_FUNCTION pack(Vector vector) : v(vector) {}
+  // value(lane) in each lane, put together in registers; use(lane, value) of each.
+  template <class Value>
+  static KOKKOS_FORCEINLINE_FUNCTION pack of(const Value& value) {
+    return of(value, std::make_integer_sequence<int, W>{});
+  }
+  template <class Use>
+  KOKKOS_FORCEINLINE_FUNCTION void for_each(const Use& use) const {
+    for_each(use, std::make_integer_sequence<int, W>{});
+  }
 
-  T operator[](int lane) const { return v[lane]; }
-  void set(int lane, T value) { v[lane] = value; }
+  KOKKOS_FORCEINLINE_FUNCTION T operator[](int lane) const { return v[lane]; }
+  KOKKOS_FORCEINLINE_FUNCTION void set(int lane, T value) { v[lane] = value; }
 
-  friend pack operator+(pack a, pack b) { return a.v + b.v; }
-  friend pack operator-(pack a, pack b) { return a.v - b.v; }
-  friend pack operator*(pack a, pack b) { return a.v * b.v; }
-  friend pack operator/(pack a, pack b) { return a.v / b.v; }
-  friend pack operator-(pack a) { return -a.v; }
-  pack& operator+=(pack b) { return v += b.v, *this; }
-  pack& operator-=(pack b) { return v -= b.v, *this; }
-  pack& operator*=(pack b) { return v *= b.v, *this; }
+  KOKKOS_FORCEINLINE_FUNCTION pack& operator+=(pack b) { return *this = *this + b; }
+  KOKKOS_FORCEINLINE_FUNCTION pack& operator-=(pack b) { return *this = *this - b; }
+  KOKKOS_FORCEINLINE_FUNCTION pack& operator*=(pack b) { return *this = *this * b; }
+  friend KOKKOS_FORCEINLINE_FUNCTION pack operator+(pack a, pack b) { return pack(a.v + b.v); }
+  friend KOKKOS_FORCEINLINE_FUNCTION pack operator-(pack a, pack b) { return pack(a.v - b.v); }
+  friend KOKKOS_FORCEINLINE_FUNCTION pack operator*(pack a, pack b) { return pack(a.v * b.v); }
+  friend KOKKOS_FORCEINLINE_FUNCTION pack operator/(pack a, pack b) { return pack(a.v / b.v); }
+  friend KOKKOS_FORCEINLINE_FUNCTION pack operator-(pack a) { return pack(-a.v); }
+  friend KOKKOS_FORCEINLINE_FUNCTION Mask operator<(pack a, pack b) { return {registers::less(a.v, b.v)}; }
+  friend KOKKOS_FORCEINLINE_FUNCTION pack select(Mask m, pack a, pack b) { return pack(registers::select(m.bits, a.v, b.v)); }
+  friend KOKKOS_FORCEINLINE_FUNCTION pack smaller(pack a, pack b) { return pack(registers::smaller(a.v, b.v)); }
+  friend KOKKOS_FORCEINLINE_FUNCTION pack larger(pack a, pack b) { return pack(registers::larger(a.v, b.v)); }
+  friend KOKKOS_FORCEINLINE_FUNCTION pack larger_where(Mask m, pack a, pack b) {
+    return pack(registers::larger_where(m.bits, a.v, b.v));
+  }
+  friend KOKKOS_FORCEINLINE_FUNCTION pack turned_by(pack a, pack b) { return pack(registers::turned_by(a.v, b.v)); }
+  friend KOKKOS_FORCEINLINE_FUNCTION pack size_of(pack a) { return pack(registers::size_of(a.v)); }
+  friend KOKKOS_FORCEINLINE_FUNCTION pack root(pack a) { return pack(registers::root(a.v)); }
+  friend KOKKOS_FORCEINLINE_FUNCTION pack rsqrt(pack a) { return pack(registers::rsqrt(a.v)); }
+  friend KOKKOS_FORCEINLINE_FUNCTION pack bits_as_number(pack a) { return pack(registers::bits_as_number(a.v)); }
+  friend KOKKOS_FORCEINLINE_FUNCTION pack number_as_bits(pack a) { return pack(registers::number_as_bits(a.v)); }
+  friend KOKKOS_FORCEINLINE_FUNCTION pack together(pack a) { return pack(registers::together(a.v)); }
+
+ private:
+  template <class Value, int... l>
+  static KOKKOS_FORCEINLINE_FUNCTION pack of(const Value& value, std::integer_sequence<int, l...>) {
+    return pack(Vector{static_cast<T>(value(l))...});
+  }
+  template <class Use, int... l>
+  KOKKOS_FORCEINLINE_FUNCTION void for_each(const Use& use, std::integer_sequence<int, l...>) const {
+    (use(l, v[l]), ...);
+  }
 };
-
-// The value type of the pair loops and its per-lane truth value.
-#ifdef FRESHET_AVX512
-struct Mask8 {
-  __mmask8 bits;
-  friend Mask8 operator&(Mask8 a, Mask8 b) { return {static_cast<__mmask8>(a.bits & b.bits)}; }
-  friend Mask8 operator|(Mask8 a, Mask8 b) { return {static_cast<__mmask8>(a.bits | b.bits)}; }
-  friend Mask8 operator!(Mask8 a) { return {static_cast<__mmask8>(~a.bits)}; }
-};
-using double8 = pack<double, 8>;
-// The maskz forms with every lane on are the plain instructions; g++ 12 warns falsely of the plain forms.
-inline constexpr __mmask8 all_lanes = 0xff;
-inline Mask8 operator<(double8 a, double8 b) {
-  return {_mm512_cmp_pd_mask((__m512d)a.v, (__m512d)b.v, _CMP_LT_OQ)};
-}
-inline bool any(Mask8 m) { return m.bits != 0; }
-inline Mask8 first_lanes(int n) { return {static_cast<__mmask8>((1 << n) - 1)}; }
-inline int count(Mask8 m) { return __builtin_popcount(m.bits); }
-inline double8 select(Mask8 m, double8 a, double8 b) {
-  return double8::Vector(_mm512_mask_blend_pd(m.bits, (__m512d)b.v, (__m512d)a.v));
-}
-inline double8 smaller(double8 a, double8 b) { return double8::Vector(_mm512_maskz_min_pd(all_lanes, (__m512d)a.v, (__m512d)b.v)); }
-inline double8 larger(double8 a, double8 b) { return double8::Vector(_mm512_maskz_max_pd(all_lanes, (__m512d)a.v, (__m512d)b.v)); }
-// a, in the lanes of m the larger of a and b.
-inline double8 larger_where(Mask8 m, double8 a, double8 b) {
-  return double8::Vector(_mm512_mask_max_pd((__m512d)a.v, m.bits, (__m512d)a.v, (__m512d)b.v));
-}
-// a with its sign turned where b is negative: one instruction on the bits (0x78: a ^ (b & c)).
-inline double8 turned_by(double8 a, double8 b) {
-  const __m512i sign = _mm512_set1_epi64(static_cast<long long>(1ull << 63));
-  return double8::Vector((__m512d)_mm512_ternarylogic_epi64((__m512i)a.v, (__m512i)b.v, sign, 0x78));
-}
-inline double8 size_of(double8 a) {
-  return double8::Vector((__m512d)_mm512_maskz_andnot_epi64(all_lanes, _mm512_set1_epi64(static_cast<long long>(1ull << 63)), (__m512i)a.v));
-}
-inline double8 sqrt(double8 a) { return double8::Vector(_mm512_maskz_sqrt_pd(all_lanes, (__m512d)a.v)); }
-// 14-bit estimate and one third-order step: relative error below 1e-12, no division. a > 0.
-inline double8 rsqrt(double8 a) {
-  const double8 y = double8::Vector(_mm512_maskz_rsqrt14_pd(all_lanes, (__m512d)a.v));
-  const double8 e = 1.0 - a * y * y;
-  return y + y * e * (0.5 + 0.375 * e);
-}
-#elif !defined(KOKKOS_ENABLE_CUDA) && !defined(KOKKOS_ENABLE_HIP)
-template <int W>
-struct LaneMask {
-  typedef long long Bits __attribute__((vector_size(W * 8)));
-  Bits bits;
-  friend LaneMask operator&(LaneMask a, LaneMask b) { return {a.bits & b.bits}; }
-  friend LaneMask operator|(LaneMask a, LaneMask b) { return {a.bits | b.bits}; }
-  friend LaneMask operator!(LaneMask a) { return {~a.bits}; }
-};
-template <int W>
-LaneMask<W> operator<(pack<double, W> a, pack<double, W> b) {
-  return {a.v < b.v};
-}
-#ifndef FRESHET_SCALAR
-inline LaneMask<lanes> first_lanes(int n) {
-  LaneMask<lanes> m;
-  for (int l = 0; l < lanes; ++l) m.bits[l] = l < n ? -1 : 0;
-  return m;
-}
-#endif
-template <int W>
-int count(LaneMask<W> m) {
-  long long n = 0;
-  for (int l = 0; l < W; ++l) n -= m.bits[l];
-  return static_cast<int>(n);
-}
-template <int W>
-bool any(LaneMask<W> m) {
-  long long found = 0;
-  for (int l = 0; l < W; ++l) found |= m.bits[l];
-  return found != 0;
-}
-template <int W>
-pack<double, W> select(LaneMask<W> m, pack<double, W> a, pack<double, W> b) {
-  return typename pack<double, W>::Vector(m.bits ? a.v : b.v);
-}
-template <int W>
-pack<double, W> smaller(pack<double, W> a, pack<double, W> b) {
-  return typename pack<double, W>::Vector(b.v < a.v ? b.v : a.v);
-}
-template <int W>
-pack<double, W> larger(pack<double, W> a, pack<double, W> b) {
-  return typename pack<double, W>::Vector(a.v < b.v ? b.v : a.v);
-}
-template <int W>
-pack<double, W> larger_where(LaneMask<W> m, pack<double, W> a, pack<double, W> b) {
-  return select(m, larger(a, b), a);
-}
-template <int W>
-pack<double, W> turned_by(pack<double, W> a, pack<double, W> b) {
-  return select(b < pack<double, W>(0.0), -a, a);
-}
-template <int W>
-pack<double, W> size_of(pack<double, W> a) {
-  return turned_by(a, a);
-}
-template <int W>
-pack<double, W> sqrt(pack<double, W> a) {
-  pack<double, W> root;
-  for (int l = 0; l < W; ++l) root.v[l] = std::sqrt(a.v[l]);
-  return root;
-}
-template <int W>
-pack<double, W> rsqrt(pack<double, W> a) {
-  return 1.0 / sqrt(a);
-}
-#endif
-
-// The same words for plain scalars.
-KOKKOS_FORCEINLINE_FUNCTION bool any(bool m) { return m; }
-KOKKOS_FORCEINLINE_FUNCTION int count(bool m) { return m; }
-#if defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP) || defined(FRESHET_SCALAR)
-KOKKOS_FORCEINLINE_FUNCTION bool first_lanes(int n) { return n > 0; }
-#endif
-KOKKOS_FORCEINLINE_FUNCTION double select(bool m, double a, double b) { return m ? a : b; }
-KOKKOS_FORCEINLINE_FUNCTION double larger_where(bool m, double a, double b) { return m && a < b ? b : a; }
-KOKKOS_FORCEINLINE_FUNCTION double turned_by(double a, double b) { return b < 0 ? -a : a; }
-KOKKOS_FORCEINLINE_FUNCTION double size_of(double a) { return a < 0 ? -a : a; }
-KOKKOS_FORCEINLINE_FUNCTION double rsqrt(double a) {
-  return 1.0 / ::sqrt(a);
-}
-KOKKOS_FORCEINLINE_FUNCTION double root(double a) {
-  return ::sqrt(a);
-}
-
-#if defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP) || defined(FRESHET_SCALAR)
-using Lane = double;
-#else
-using Lane = pack<double, lanes>;
-KOKKOS_FORCEINLINE_FUNCTION Lane root(Lane a) { return sqrt(a); }
-#endif
-
-// Whole numbers per lane, for table look-ups.
-#if defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP) || defined(FRESHET_SCALAR)
-using LaneIndex = int;
-#else
-using LaneIndex = pack<int, lanes>;
-#endif
-
-// Cut towards zero.
-KOKKOS_FORCEINLINE_FUNCTION int to_index(double a) { return static_cast<int>(a); }
-KOKKOS_FORCEINLINE_FUNCTION double to_real(int a) { return a; }
-KOKKOS_FORCEINLINE_FUNCTION double gather(const double* table, int index) { return table[index]; }
-// a^(-1/3), a > 0
-KOKKOS_FORCEINLINE_FUNCTION double inverse_cbrt(double a) { return 1.0 / ::cbrt(a); }
-
-#if !defined(KOKKOS_ENABLE_CUDA) && !defined(KOKKOS_ENABLE_HIP)
-template <int W>
-pack<int, W> to_index(pack<double, W> a) {
-  return __builtin_convertvector(a.v, typename pack<int, W>::Vector);
-}
-template <int W>
-pack<double, W> to_real(pack<int, W> a) {
-  return __builtin_convertvector(a.v, typename pack<double, W>::Vector);
-}
-#ifdef FRESHET_AVX512
-inline double8 gather(const double* table, pack<int, 8> index) {
-  return double8::Vector(_mm512_mask_i32gather_pd(_mm512_setzero_pd(), all_lanes, (__m256i)index.v, table, 8));
-}
-#else
-template <int W>
-pack<double, W> gather(const double* table, pack<int, W> index) {
-  pack<double, W> value;
-  for (int l = 0; l < W; ++l) value.set(l, table[index[l]]);
-  return value;
-}
-#endif
-// A third of the exponent, taken on the bits read as a number (at most 8.2 % off), then Newton's method, which squares the error.
-template <int W>
-pack<double, W> inverse_cbrt(pack<double, W> a) {
-  using Bits = typename vector_of<long long, W>::type;
-  using Reals = typename pack<double, W>::Vector;
-  constexpr double zero_exponent = 1023.0 * 4503599627370496.0;  // the bits of 1.0
-  const Reals third = (4.0 / 3.0 * zero_exponent) - __builtin_convertvector((Bits)a.v, Reals) * (1.0 / 3.0);
-  pack<double, W> y = (Reals)__builtin_convertvector(third, Bits);
-  for (int n = 0; n < 4; ++n) y = y * (4.0 / 3.0 - (1.0 / 3.0) * a * y * y * y);
-  return y;
-}
-#endif
-
-// Added to r^2 so that a particle's pair with itself has a finite 1/r (and no effect, since x_ij = 0). Large enough that
-// rsqrt's intermediate squares stay finite when r^2 is multiplied by small densities squared.
-inline constexpr double tiny_square = 1e-200;
-
-// Single lanes, for what has no vector form.
-template <class T, int W>
-T lane_of(const pack<T, W>& a, int lane) {
-  return a[lane];
-}
-template <class T, int W>
-void set_lane(pack<T, W>& a, int lane, T value) {
-  a.set(lane, value);
-}
-KOKKOS_FORCEINLINE_FUNCTION double lane_of(double a, int) { return a; }
-KOKKOS_FORCEINLINE_FUNCTION void set_lane(double& a, int, double value) { a = value; }
-
-template <class V>
-KOKKOS_FORCEINLINE_FUNCTION V clamp(V value, V low, V high) {
-  return smaller(larger(value, low), high);
-}
-
-// Largest and smallest lane.
-template <class T, int W>
-T largest(pack<T, W> a) {
-  T m = a[0];
-  for (int l = 1; l < W; ++l) m = larger(m, a[l]);
-  return m;
-}
-template <class T, int W>
-T smallest(pack<T, W> a) {
-  return -largest(-a);
-}
-#ifdef FRESHET_AVX512
-inline double largest(double8 a) {
-  const __m256d four = _mm256_max_pd((__m256d)__builtin_shufflevector(a.v, a.v, 0, 1, 2, 3), (__m256d)__builtin_shufflevector(a.v, a.v, 4, 5, 6, 7));
-  const __m128d two = _mm_max_pd(_mm256_castpd256_pd128(four), _mm256_extractf128_pd(four, 1));
-  return larger(two[0], two[1]);
-}
-inline double smallest(double8 a) { return -largest(-a); }
-#endif
-KOKKOS_FORCEINLINE_FUNCTION double largest(double a) { return a; }
-KOKKOS_FORCEINLINE_FUNCTION double smallest(double a) { return a; }
 
 }  // namespace freshet
+#endif

@@ -21,7 +21,7 @@ KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 2> gather(const VecField<double, 2>& f, co
 }
 
 KOKKOS_FORCEINLINE_FUNCTION void prefetch(const void* address) {
-#if !defined(KOKKOS_ENABLE_CUDA) && !defined(KOKKOS_ENABLE_HIP)
+#ifndef FRESHET_DEVICE
   __builtin_prefetch(address);
 #else
   (void)address;
@@ -30,12 +30,7 @@ KOKKOS_FORCEINLINE_FUNCTION void prefetch(const void* address) {
 
 // As gather(), of indices in memory: eight loads put together take half the time of a gather (Zen 5).
 KOKKOS_FORCEINLINE_FUNCTION Lane load_each(const double* table, const int* index) {
-#if defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP) || defined(FRESHET_SCALAR)
-  return table[*index];
-#else
-  const double* t = table;
-  return Lane::Vector{t[index[0]], t[index[1]], t[index[2]], t[index[3]], t[index[4]], t[index[5]], t[index[6]], t[index[7]]};
-#endif
+  return lanes_of<Lane>([&](int lane) { return table[index[lane]]; });
 }
 
 // The pairs as the device sees them. A coefficient is a Field with one value per entry and lane (Pairs::coefficient).
@@ -52,22 +47,17 @@ struct PairView {
   KOKKOS_FORCEINLINE_FUNCTION static size_t at(int entry, int lane = 0) { return static_cast<size_t>(entry) * lanes + lane; }
 
   KOKKOS_FORCEINLINE_FUNCTION PairIndex neighbours(int entry) const {
-    PairIndex value;
-    __builtin_memcpy(&value.j, j.data() + at(entry), sizeof(value.j));
-    __builtin_memcpy(&value.slot, slot.data() + at(entry), sizeof(value.slot));
-    return value;
+    return {loaded<LaneIndex>(j.data() + at(entry)), loaded<LaneIndex>(slot.data() + at(entry))};
   }
   static KOKKOS_FORCEINLINE_FUNCTION Lane load(const Field<double>& coefficient, int entry) {
-    Lane value;
-    __builtin_memcpy(&value, coefficient.data() + at(entry), sizeof(value));
-    return value;
+    return loaded<Lane>(coefficient.data() + at(entry));
   }
   static KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 1> load(const VecField<double, 1>& f, int entry) { return {load(f.x, entry)}; }
   static KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 2> load(const VecField<double, 2>& f, int entry) {
     return {load(f.x, entry), load(f.y, entry)};
   }
   static KOKKOS_FORCEINLINE_FUNCTION void store(const Field<double>& coefficient, int entry, Lane value) {
-    __builtin_memcpy(coefficient.data() + at(entry), &value, sizeof(value));
+    freshet::store(coefficient.data() + at(entry), value);
   }
   static KOKKOS_FORCEINLINE_FUNCTION void store(const VecField<double, 1>& f, int entry, const Vec<Lane, 1>& a) {
     store(f.x, entry, a.x);

@@ -6,7 +6,7 @@
 #include <thread>
 #include <utility>
 
-#include "cellgrid/types.hpp"
+#include "cellgrid/pack.hpp"
 
 namespace freshet {
 namespace {
@@ -42,6 +42,19 @@ Runtime::Runtime(int threads) {
 Runtime::~Runtime() { Kokkos::finalize(); }
 
 const char* backend_name() { return Exec::name(); }
+
+#ifdef FRESHET_DEVICE
+const char* registers_name() { return "none"; }
+std::string better_registers() { return {}; }
+#else
+const char* registers_name() { return instruction_set; }
+std::string better_registers() {
+  const std::string machine = machine_instruction_set();
+  if (machine == instruction_set) return {};
+  return "this machine has " + machine + ": a build with FRESHET_ARCH=native, as the preset release is, uses it";
+}
+#endif
+
 int thread_count() { return Exec().concurrency(); }
 
 }  // namespace freshet

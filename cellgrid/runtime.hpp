@@ -1,5 +1,6 @@
 // Starts and stops Kokkos. The only place that does: Kokkos never sees our command line.
 #pragma once
+#include <string>
 
 namespace freshet {
 
@@ -12,6 +13,9 @@ struct Runtime {
 };
 
 const char* backend_name();  // "OpenMP", "Serial", ...
+const char* registers_name();  // of the vector registers that this program was built for: "AVX-512", "AVX2", "SSE", "NEON", ...
+// What to do where the machine has wider ones than those; empty where it has not.
+std::string better_registers();
 int thread_count();
 
 }  // namespace freshet

@@ -34,6 +34,16 @@ struct Vec<V, 3> {
   friend KOKKOS_FORCEINLINE_FUNCTION Vec operator*(const V& s, const Vec& a) { return {s * a.x, s * a.y, s * a.z}; }
 };
 
+// f of each number, of several vectors or matrices number by number.
+template <class F, class... V>
+KOKKOS_FORCEINLINE_FUNCTION auto each(const F& f, const Vec<V, 1>&... a) -> Vec<decltype(f(a.x...)), 1> {
+  return {f(a.x...)};
+}
+template <class F, class... V>
+KOKKOS_FORCEINLINE_FUNCTION auto each(const F& f, const Vec<V, 2>&... a) -> Vec<decltype(f(a.x...)), 2> {
+  return {f(a.x...), f(a.y...)};
+}
+
 template <class V>
 KOKKOS_FORCEINLINE_FUNCTION V dot(const Vec<V, 1>& a, const Vec<V, 1>& b) {
   return a.x * b.x;
@@ -61,6 +71,15 @@ struct Sym<V, 2> {
   V xx{0.0}, xy{0.0}, yy{0.0};
   KOKKOS_FORCEINLINE_FUNCTION Sym& operator+=(const Sym& b) { return xx += b.xx, xy += b.xy, yy += b.yy, *this; }
 };
+
+template <class F, class... V>
+KOKKOS_FORCEINLINE_FUNCTION auto each(const F& f, const Sym<V, 1>&... a) -> Sym<decltype(f(a.xx...)), 1> {
+  return {f(a.xx...)};
+}
+template <class F, class... V>
+KOKKOS_FORCEINLINE_FUNCTION auto each(const F& f, const Sym<V, 2>&... a) -> Sym<decltype(f(a.xx...)), 2> {
+  return {f(a.xx...), f(a.xy...), f(a.yy...)};
+}
 
 template <class V>
 KOKKOS_FORCEINLINE_FUNCTION Vec<V, 1> operator*(const Sym<V, 1>& m, const Vec<V, 1>& a) {

@@ -4,7 +4,7 @@
 #include <array>
 #include <functional>
 
-#include "cellgrid/pack.hpp"
+#include "cellgrid/lanes.hpp"
 #include "cellgrid/vec.hpp"
 
 namespace freshet {
@@ -35,17 +35,17 @@ struct SplineWeights {
 // as sixteen gathers take twice the time (Zen 5).
 KOKKOS_FORCEINLINE_FUNCTION const double* corners_of(const double* table, int first) { return table + first; }
 KOKKOS_FORCEINLINE_FUNCTION double value_at(const double* corner, int offset) { return corner[offset]; }
-#if !defined(KOKKOS_ENABLE_CUDA) && !defined(KOKKOS_ENABLE_HIP) && !defined(FRESHET_SCALAR)
+#ifndef FRESHET_ONE_LANE
 struct Corners {
   const double* p[lanes];
 };
 KOKKOS_FORCEINLINE_FUNCTION Corners corners_of(const double* table, LaneIndex first) {
   Corners c;
-  for (int l = 0; l < lanes; ++l) c.p[l] = table + first[l];
+  for_each_lane(first, [&](int lane, int index) { c.p[lane] = table + index; });
   return c;
 }
 KOKKOS_FORCEINLINE_FUNCTION Lane value_at(const Corners& c, int k) {
-  return Lane::Vector{c.p[0][k], c.p[1][k], c.p[2][k], c.p[3][k], c.p[4][k], c.p[5][k], c.p[6][k], c.p[7][k]};
+  return Lane::of([&](int lane) { return c.p[lane][k]; });
 }
 #endif
 

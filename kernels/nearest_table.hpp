@@ -4,7 +4,7 @@
 #include <array>
 #include <functional>
 
-#include "cellgrid/pack.hpp"
+#include "cellgrid/lanes.hpp"
 #include "cellgrid/vec.hpp"
 
 namespace freshet {

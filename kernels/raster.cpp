@@ -31,14 +31,12 @@ struct Block {
   KOKKOS_FORCEINLINE_FUNCTION bool holds(int lane) const { return column(lane) < nx && row(lane) < ny; }
   KOKKOS_FORCEINLINE_FUNCTION int cell(int lane) const { return row(lane) * nx + column(lane); }
   KOKKOS_FORCEINLINE_FUNCTION Lane load(const Field<double>& f) const {
-    Lane value(0.0);
-    for (int l = 0; l < lanes; ++l)
-      if (holds(l)) set_lane(value, l, f(cell(l)));
-    return value;
+    return lanes_of<Lane>([&](int lane) { return holds(lane) ? f(cell(lane)) : 0.0; });
   }
   KOKKOS_FORCEINLINE_FUNCTION void store(const Field<double>& f, const Lane& value) const {
-    for (int l = 0; l < lanes; ++l)
-      if (holds(l)) f(cell(l)) = lane_of(value, l);
+    for_each_lane(value, [&](int lane, double one) {
+      if (holds(lane)) f(cell(lane)) = one;
+    });
   }
 };
 
@@ -49,12 +47,9 @@ KOKKOS_FORCEINLINE_FUNCTION Block<D> block_at(const CellGrid& grid, const Blocks
 
 template <int D>
 KOKKOS_INLINE_FUNCTION Vec<Lane, D> centres(const CellGrid& grid, const Block<D>& block) {
-  Vec<Lane, D> place;
-  for (int l = 0; l < lanes; ++l) {
-    set_lane(place.x, l, grid.x(block.column(l)));
-    if constexpr (D == 2) set_lane(place.y, l, grid.y(block.row(l)));
-  }
-  return place;
+  const Lane x = lanes_of<Lane>([&](int lane) { return grid.x(block.column(lane)); });
+  if constexpr (D == 1) return {x};
+  else return {x, lanes_of<Lane>([&](int lane) { return grid.y(block.row(lane)); })};
 }
 
 // The rectangle of a block's centres.

@@ -3,7 +3,7 @@
 #pragma once
 #include <utility>
 
-#include "cellgrid/pack.hpp"
+#include "cellgrid/lanes.hpp"
 
 namespace freshet {
 

@@ -26,7 +26,7 @@ Stretch stretch_of(WallKind kind) {
 
 template <int D>
 Walls<D>::Walls(const std::vector<WallLine>& lines, const WallOptions& options, const std::array<double, 2>& inside, double support)
-    : order_(D, options.spacing), near_(32, "walls::list"), kind_(options.kind), stretch_(stretch_of(options.kind)),
+    : order_(D, options.spacing), near_(32, "walls::list", false), kind_(options.kind), stretch_(stretch_of(options.kind)),
       // A virtual particle lies twice as far away as its wall point; a neighbour's image may stand right behind the wall.
       reach_(support / stretch_.factor[0]), depth_(2 * options.spacing) {
   const WallGeometry g = lay_walls(D, lines, options, inside);

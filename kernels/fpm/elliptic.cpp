@@ -30,9 +30,7 @@ struct AssembleRows {
   bool on_mesh;
 
   KOKKOS_INLINE_FUNCTION Lane where(const Lanes& me, int row) const {
-    Lane yes{0.0};
-    for (int l = 0; l < me.count; ++l) set_lane(yes, l, places.row(me.first + l) == row ? 1.0 : 0.0);
-    return yes;
+    return lanes_of<Lane>([&](int lane) { return lane < me.count && places.row(me.first + lane) == row ? 1.0 : 0.0; });
   }
 
   KOKKOS_INLINE_FUNCTION void operator()(int c) const {

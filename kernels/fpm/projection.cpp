@@ -48,8 +48,7 @@ KOKKOS_INLINE_FUNCTION Vec<Lane, 2> surface_laplacian(const StencilView<2>& sten
 
 KOKKOS_INLINE_FUNCTION Vec<Lane, 2> viscous_laplacian(const StencilView<2>& stencils, const Flow& flow, int c) {
   const Lanes me = stencils.around.clusters(c);
-  Lane open{0.0};
-  for (int l = 0; l < me.count; ++l) set_lane(open, l, flow.surface(me.first + l) ? 1.0 : 0.0);
+  const Lane open = lanes_of<Lane>([&](int lane) { return lane < me.count && flow.surface(me.first + lane) ? 1.0 : 0.0; });
   const Vec<Lane, 2> inside = stencils.laplacian(c, flow.v);
   if (!any(Lane(0.0) < open)) return inside;
   return inside + open * (surface_laplacian(stencils, c, flow.v) - inside);

@@ -20,22 +20,22 @@ struct StencilView {
   template <int N>
   KOKKOS_FORCEINLINE_FUNCTION Column<Lane, N> load(int c, int first) const {
     Column<Lane, N> beta;
-    unroll<N>([&](auto k) { __builtin_memcpy(&beta[k], &factors(c, first + k, 0), sizeof(Lane)); });
+    unroll<N>([&](auto k) { beta[k] = loaded<Lane>(&factors(c, first + k, 0)); });
     return beta;
   }
   template <int N>
   KOKKOS_FORCEINLINE_FUNCTION void store(int c, int first, const Column<Lane, N>& beta) const {
-    unroll<N>([&](auto k) { __builtin_memcpy(&factors(c, first + k, 0), &beta[k], sizeof(Lane)); });
+    unroll<N>([&](auto k) { freshet::store(&factors(c, first + k, 0), beta[k]); });
   }
 
   // sum w m m^T over the neighbours.
   KOKKOS_FORCEINLINE_FUNCTION Moments<Lane, D> moments(int c) const {
     Moments<Lane, D> kept;
-    unroll<moment_count>([&](auto k) { __builtin_memcpy(&kept.g.a[k], &factors(c, moments_first + k, 0), sizeof(Lane)); });
+    unroll<moment_count>([&](auto k) { kept.g.a[k] = loaded<Lane>(&factors(c, moments_first + k, 0)); });
     return kept;
   }
   KOKKOS_FORCEINLINE_FUNCTION void keep(int c, const Moments<Lane, D>& moments) const {
-    unroll<moment_count>([&](auto k) { __builtin_memcpy(&factors(c, moments_first + k, 0), &moments.g.a[k], sizeof(Lane)); });
+    unroll<moment_count>([&](auto k) { freshet::store(&factors(c, moments_first + k, 0), moments.g.a[k]); });
   }
 
   // At the cluster's points, of fields f and v.

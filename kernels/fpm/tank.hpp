@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "cellgrid/pack.hpp"
+#include "cellgrid/lanes.hpp"
 #include "cellgrid/vec.hpp"
 
 namespace freshet::fpm {

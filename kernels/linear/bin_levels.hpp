@@ -51,22 +51,13 @@ struct BinLevel {
   KOKKOS_FORCEINLINE_FUNCTION Lane times(int c, const Vector& v) const {
     Lane sum{0.0};
     if (even(c)) {
-      for (int s = 0; s < width(); ++s) sum += entry(c, s) * loaded(v.data() + column(c * lanes, s));
+      for (int s = 0; s < width(); ++s) sum += entry(c, s) * loaded<Lane>(v.data() + column(c * lanes, s));
       return sum;
     }
-    for (int s = 0; s < width(); ++s) {
-      LaneIndex j;
-      __builtin_memcpy(&j, &column(c * lanes, s), sizeof j);
-      sum += entry(c, s) * gather(v.data(), j);
-    }
+    for (int s = 0; s < width(); ++s) sum += entry(c, s) * gather(v.data(), loaded<LaneIndex>(&column(c * lanes, s)));
     return sum;
   }
-  KOKKOS_FORCEINLINE_FUNCTION Lane entry(int c, int s) const { return loaded(&a(c * lanes, s)); }
-  static KOKKOS_FORCEINLINE_FUNCTION Lane loaded(const double* from) {
-    Lane value;
-    __builtin_memcpy(&value, from, sizeof value);
-    return value;
-  }
+  KOKKOS_FORCEINLINE_FUNCTION Lane entry(int c, int s) const { return loaded<Lane>(&a(c * lanes, s)); }
   KOKKOS_FORCEINLINE_FUNCTION Lane per_diagonal(int c) const { return block(c).load(inverse_diagonal); }
 };
 

@@ -11,26 +11,14 @@
 namespace freshet::linear {
 
 // Lanes of whole numbers of 16 bits.
-#if defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP) || defined(FRESHET_SCALAR)
+#ifdef FRESHET_ONE_LANE
 KOKKOS_FORCEINLINE_FUNCTION Lane load_short(const std::int16_t* from) { return *from; }
 KOKKOS_FORCEINLINE_FUNCTION void store_short(std::int16_t* to, LaneIndex value) { *to = static_cast<std::int16_t>(value); }
 #else
-using Shorts = vector_of<std::int16_t, lanes>::type;
-#ifdef FRESHET_AVX512
-KOKKOS_FORCEINLINE_FUNCTION Lane load_short(const std::int16_t* from) {  // g++ 12 widens by halves
-  const __m256i whole = _mm256_cvtepi16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from)));
-  return Lane::Vector(_mm512_maskz_cvtepi32_pd(all_lanes, whole));
-}
-#else
-KOKKOS_FORCEINLINE_FUNCTION Lane load_short(const std::int16_t* from) {
-  Shorts s;
-  __builtin_memcpy(&s, from, sizeof s);
-  return to_real(LaneIndex(__builtin_convertvector(s, LaneIndex::Vector)));
-}
-#endif
+using Shorts = pack<std::int16_t, lanes>;
+KOKKOS_FORCEINLINE_FUNCTION Lane load_short(const std::int16_t* from) { return to_real(convert<int>(loaded<Shorts>(from))); }
 KOKKOS_FORCEINLINE_FUNCTION void store_short(std::int16_t* to, LaneIndex value) {
-  const Shorts s = __builtin_convertvector(value.v, Shorts);
-  __builtin_memcpy(to, &s, sizeof s);
+  store(to, convert<std::int16_t>(value));
 }
 #endif
 
@@ -45,11 +33,7 @@ struct ClusterMatrix {
 
  private:
   KOKKOS_FORCEINLINE_FUNCTION auto exact(int c) const {
-    return [from = &a(start(c), 0)](int k) {
-      Lane value;
-      __builtin_memcpy(&value, from + k * lanes, sizeof value);
-      return value;
-    };
+    return [from = &a(start(c), 0)](int k) { return loaded<Lane>(from + k * lanes); };
   }
 
   template <class Sum, class Entry, class Value>
@@ -96,11 +80,9 @@ struct ClusterMatrix {
   }
 
   KOKKOS_FORCEINLINE_FUNCTION Lane entry(int c, int k) const {
-    Lane value;
-    __builtin_memcpy(&value, &a(start(c) + k, 0), sizeof(Lane));
-    return value;
+    return loaded<Lane>(&a(start(c) + k, 0));
   }
-  KOKKOS_FORCEINLINE_FUNCTION void set(int c, int k, Lane value) const { __builtin_memcpy(&a(start(c) + k, 0), &value, sizeof value); }
+  KOKKOS_FORCEINLINE_FUNCTION void set(int c, int k, Lane value) const { store(&a(start(c) + k, 0), value); }
 
   // Makes the rough copy of a cluster whose entries are set.
   KOKKOS_INLINE_FUNCTION void round(int c) const {

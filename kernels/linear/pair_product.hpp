@@ -32,9 +32,7 @@ struct PairProduct {
     const Lanes me = pairs(s);
     const Lane xi = me.load(x), row = me.load(mask) * (me.load(diagonal) * xi - a.weighted_sum(pairs, s, x)), product = xi * row;
     me.store(y, row);
-    double total = 0;
-    for (int l = 0; l < me.count; ++l) total += lane_of(product, l);
-    return {{total}};
+    return {{sum_of(me, product)}};
   }
 };
 

@@ -84,12 +84,12 @@ KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 2> face_velocity(const Vec<Lane, 2>& donor
   return {donor.x + to_face(difference.x, 2.0 * dot(du, way)), donor.y + to_face(difference.y, 2.0 * dot(dv, way))};
 }
 template <class Mask>
-KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 1> select(Mask m, const Vec<Lane, 1>& a, const Vec<Lane, 1>& b) {
-  return {freshet::select(m, a.x, b.x)};
+KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 1> either(Mask m, const Vec<Lane, 1>& a, const Vec<Lane, 1>& b) {
+  return {select(m, a.x, b.x)};
 }
 template <class Mask>
-KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 2> select(Mask m, const Vec<Lane, 2>& a, const Vec<Lane, 2>& b) {
-  return {freshet::select(m, a.x, b.x), freshet::select(m, a.y, b.y)};
+KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 2> either(Mask m, const Vec<Lane, 2>& a, const Vec<Lane, 2>& b) {
+  return {select(m, a.x, b.x), select(m, a.y, b.y)};
 }
 
 template <int D>
@@ -116,10 +116,10 @@ struct Advect {
       const Lane f = PairView::load(flux, e);
       const auto inward = f < Lane(0.0);
       const Lane d = PairView::load(g.distance, e), towards = select(inward, -d, d);
-      const Vec<Lane, D> vj = gather(water.v, j), du = sisph::select(inward, gather(gradient.u, j), dui);
+      const Vec<Lane, D> vj = gather(water.v, j), du = either(inward, gather(gradient.u, j), dui);
       Vec<Lane, D> dv;
-      if constexpr (D == 2) dv = sisph::select(inward, gather(gradient.v, j), dvi);
-      const Vec<Lane, D> donor = sisph::select(inward, vj, vi), difference = sisph::select(inward, vi - vj, vj - vi);
+      if constexpr (D == 2) dv = either(inward, gather(gradient.v, j), dvi);
+      const Vec<Lane, D> donor = either(inward, vj, vi), difference = either(inward, vi - vj, vj - vi);
       const Vec<Lane, D> face = face_velocity(donor, difference, towards * PairView::load(g.n, e), du, dv);
       const Lane kept = select(inward, gather(slope_share.data(), j), mine);
       in += larger(-f, Lane(0.0));

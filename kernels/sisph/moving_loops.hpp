@@ -67,10 +67,7 @@ struct Increment {
     me.store(right, b);
     me.store(diagonal, sum);
     me.store(inverse, free / sum);
-    const Lane b2 = b * b, omega2 = omega * omega;
-    Kokkos::Array<double, 2> total{};
-    for (int l = 0; l < me.count; ++l) total[0] += lane_of(b2, l), total[1] += lane_of(omega2, l);
-    return total;
+    return Kokkos::Array<double, 2>{{sum_of(me, b * b), sum_of(me, omega * omega)}};
   }
 };
 

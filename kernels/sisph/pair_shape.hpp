@@ -22,19 +22,6 @@ KOKKOS_FORCEINLINE_FUNCTION PairShape<D> pair_shape(const Kernel& kernel, const 
   return {inv_r * apart, r + (1.0 - here), -here * norm * inv_h * k.dw, here * norm * k.w};
 }
 
-// Not taken apart by -fassociative-math, so that what is symmetric in i and j is so to the bit.
-KOKKOS_FORCEINLINE_FUNCTION Lane together(Lane a) {
-#if defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__) && !defined(KOKKOS_ENABLE_CUDA) && !defined(KOKKOS_ENABLE_HIP)
-#ifdef FRESHET_SCALAR
-  return __builtin_assoc_barrier(a);
-#else
-  return Lane(__builtin_assoc_barrier(a.v));
-#endif
-#else
-  return a;
-#endif
-}
-
 // 2 omega_i omega_j G (1/s_i + 1/s_j) / 2
 KOKKOS_FORCEINLINE_FUNCTION Lane pair_area(Lane omega_i, Lane omega_j, Lane slope, Lane per_i, Lane per_j) {
   return together(omega_i * omega_j) * slope * together(per_i + per_j);

@@ -14,11 +14,4 @@ inline VecField<double, 2> parts(const Field<double>& v, int stride, Vec<double,
   return {Kokkos::subview(v, std::make_pair(0, stride)), Kokkos::subview(v, std::make_pair(stride, 2 * stride))};
 }
 
-// Without what stands in lanes beyond the slice's particles.
-KOKKOS_FORCEINLINE_FUNCTION double sum_of(const Lanes& me, Lane a) {
-  double total = 0;
-  for (int l = 0; l < me.count; ++l) total += lane_of(a, l);
-  return total;
-}
-
 }  // namespace freshet::sisph

@@ -22,9 +22,7 @@ struct Flow {
       in += larger(-f, Lane(0.0));
       out += larger(f, Lane(0.0));
     });
-    Kokkos::Array<double, 2> sum{};
-    for (int l = 0; l < me.count; ++l) sum[0] += lane_of(in, l), sum[1] += lane_of(out, l);
-    return sum;
+    return Kokkos::Array<double, 2>{{sum_of(me, in), sum_of(me, out)}};
   }
 };
 

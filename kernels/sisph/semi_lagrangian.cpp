@@ -142,12 +142,12 @@ struct Fit {
 
  private:
   KOKKOS_FORCEINLINE_FUNCTION Lane load_at(const Field<double>& f, int row, const Lanes& me) const {
-    Lane value(0.0);
-    for (int l = 0; l < me.count; ++l) set_lane(value, l, f(static_cast<size_t>(row) * stride + me.particle(l)));
-    return value;
+    return lanes_of<Lane>([&](int lane) { return lane < me.count ? f(static_cast<size_t>(row) * stride + me.particle(lane)) : 0.0; });
   }
   KOKKOS_FORCEINLINE_FUNCTION void store_at(const Field<double>& f, int row, const Lanes& me, Lane value) const {
-    for (int l = 0; l < me.count; ++l) f(static_cast<size_t>(row) * stride + me.particle(l)) = lane_of(value, l);
+    for_each_lane(value, [&](int lane, double one) {
+      if (lane < me.count) f(static_cast<size_t>(row) * stride + me.particle(lane)) = one;
+    });
   }
 };
 

@@ -31,6 +31,14 @@ struct Gradient<V, 2> {
   }
   KOKKOS_FORCEINLINE_FUNCTION V divergence() const { return ux + vy; }
 };
+template <class F, class... V>
+KOKKOS_FORCEINLINE_FUNCTION auto each(const F& f, const Gradient<V, 1>&... a) -> Gradient<decltype(f(a.xx...)), 1> {
+  return {f(a.xx...)};
+}
+template <class F, class... V>
+KOKKOS_FORCEINLINE_FUNCTION auto each(const F& f, const Gradient<V, 2>&... a) -> Gradient<decltype(f(a.ux...)), 2> {
+  return {f(a.ux...), f(a.uy...), f(a.vx...), f(a.vy...)};
+}
 
 // What a walk over the neighbours is for: density and its derivative by h; also d rho/dt; also grad v.
 enum class Want { density, rate, gradient };
@@ -49,14 +57,9 @@ struct PairSums {
   }
 };
 
-using freshet::folded;  // of a plain number no lookup by its arguments finds it
-KOKKOS_FORCEINLINE_FUNCTION Gradient<Lane, 1> folded(const Gradient<Twin, 1>& a) { return {folded(a.xx)}; }
-KOKKOS_FORCEINLINE_FUNCTION Gradient<Lane, 2> folded(const Gradient<Twin, 2>& a) {
-  return {folded(a.ux), folded(a.uy), folded(a.vx), folded(a.vy)};
-}
-template <int D>
-KOKKOS_FORCEINLINE_FUNCTION PairSums<Lane, D> folded(const PairSums<Twin, D>& a) {
-  return {folded(a.density), folded(a.moment), folded(a.closing), folded(a.spread), folded(a.slope)};
+template <class F, int D, class... V>
+KOKKOS_FORCEINLINE_FUNCTION auto each(const F& f, const PairSums<V, D>&... a) -> PairSums<decltype(f(a.density...)), D> {
+  return {f(a.density...), f(a.moment...), f(a.closing...), each(f, a.spread...), each(f, a.slope...)};
 }
 
 template <int D>
@@ -64,12 +67,13 @@ struct Sums : PairSums<Lane, D> {
   WallSums<Lane, D> wall;
 };
 
-// One pair, all from one 1/r.
+// One pair, all from one 1/r. apart: x_ji. (Of a structured binding g++ 12 stores a copy in every pair.)
 template <Want want, class K, class V, int D>
-KOKKOS_FORCEINLINE_FUNCTION void add_pair(const K& kernel, const Vec<V, D>& x_ji, const Vec<V, D>& v_ji, V m, V inv_h,
+KOKKOS_FORCEINLINE_FUNCTION void add_pair(const K& kernel, const Distance<V, D>& apart, const Vec<V, D>& v_ji, V m, V inv_h,
                                           PairSums<V, D>& sum) {
-  const V r2 = dot(x_ji, x_ji) + least_square<V>;
-  const V inv_r = rsqrt(r2), r = r2 * inv_r;
+  const Vec<V, D>& x_ji = apart.x;
+  const PairLength<V> length_ji = length(apart);
+  const V inv_r = length_ji.per_r, r = length_ji.r;
   const auto k = kernel.at(r * inv_h);
   const V m_dw = -m * k.dw;
   sum.density += m * k.w;
@@ -89,6 +93,17 @@ struct Here {
   Vec<Lane, D> x, v;
   Lane m, h0;
 };
+
+// Where the sums are taken.
+template <class V, int D>
+struct Seen {
+  Vec<V, D> x, v;
+  V inv_h;
+};
+template <class F, class V, int D>
+KOKKOS_FORCEINLINE_FUNCTION auto each(const F& f, const Seen<V, D>& a) -> Seen<decltype(f(a.inv_h)), D> {
+  return {each(f, a.x), each(f, a.v), f(a.inv_h)};
+}
 
 template <int D, class K, bool single>
 struct SumDensity {
@@ -121,9 +136,11 @@ struct SumDensity {
   template <Want want>
   KOKKOS_FORCEINLINE_FUNCTION PairSums<Lane, D> all(int c, const Vec<Lane, D> x, const Vec<Lane, D> v, const Lane inv_h) const {
     if constexpr (single)
-      return folded(walk_single<want>(c, x, twice(v), twice(inv_h)));
+      return each(Folded{}, walk_single<want>(c, x, each(Twice{}, v), twice(inv_h)));
     else
-      return walk<want>(c, x, v, inv_h, [](int) { return true; });
+      return by_register<Lane>(Seen<Lane, D>{x, v, inv_h}, [&](const auto& some, int part) FRESHET_INLINE_LAMBDA {
+        return walk_some<want>(near.of(c, part), some, [](int) { return true; });
+      });
   }
 
   // Signs of x and v are those of x_ij and v_ij: only their products count.
@@ -132,22 +149,29 @@ struct SumDensity {
     PairSums<Twin, D> s;
     for_each_twin(near, c, [&](int a, int b, Twin keep) {
       const TwinRecord<4> j(p.single.motion(a), p.single.motion(b));
-      add_pair<want>(kernel, apart(x, p.x, a, b), v - two_vectors<0, D>(j), keep * j.template get<2>(), inv_h, s);
+      add_pair<want>(kernel, distance(apart(x, p.x, a, b)), v - two_vectors<0, D>(j), keep * j.template get<2>(), inv_h, s);
     });
     return s;
   }
 
-  // The sums over the neighbours that count, as seen from x moving at v. A local result, its arguments by value: sums whose
-  // address is known elsewhere would be written to memory at every pair.
   template <Want want, class Counts>
-  KOKKOS_FORCEINLINE_FUNCTION PairSums<Lane, D> walk(int c, const Vec<Lane, D> x, const Vec<Lane, D> v, const Lane inv_h,
+  KOKKOS_FORCEINLINE_FUNCTION PairSums<Lane, D> walk(int c, const Vec<Lane, D>& x, const Vec<Lane, D>& v, Lane inv_h,
                                                      const Counts& counts) const {
-    PairSums<Lane, D> s;
-    near.for_each(c, [&](int j) {
+    return by_register<Lane>(Seen<Lane, D>{x, v, inv_h}, [&](const auto& some, int) FRESHET_INLINE_LAMBDA {
+      return walk_some<want>(near.of(c), some, counts);
+    });
+  }
+  // The sums over the neighbours that count, as seen from x moving at v. A local result, a copy of what sees: sums whose
+  // address is known elsewhere would be written to memory at every pair.
+  template <Want want, class V, class Counts>
+  KOKKOS_FORCEINLINE_FUNCTION PairSums<V, D> walk_some(const NearList& neighbours, const Seen<V, D> i, const Counts& counts) const {
+    PairSums<V, D> s;
+    const auto apart = [&](int j) FRESHET_INLINE_LAMBDA { return distance(broadcast<V>(at(p.x, j)) - i.x); };
+    for_each_distance<V>(neighbours, apart, [&](int j, const Distance<V, D>& x_ji) FRESHET_INLINE_LAMBDA {
       if (!counts(j)) return;
-      Vec<Lane, D> v_ji;
-      if constexpr (want != Want::density) v_ji = broadcast(at(p.v_pred, j)) - v;
-      add_pair<want>(kernel, broadcast(at(p.x, j)) - x, v_ji, Lane(p.m(j)), inv_h, s);
+      Vec<V, D> v_ji;
+      if constexpr (want != Want::density) v_ji = broadcast<V>(at(p.v_pred, j)) - i.v;
+      add_pair<want>(kernel, x_ji, v_ji, V(p.m(j)), i.inv_h, s);
     });
     return s;
   }

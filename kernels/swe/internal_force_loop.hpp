@@ -13,6 +13,10 @@ struct ForceSums {
   Vec<V, D> t;
   V signal{0.0};
 };
+template <class F, int D, class... V>
+KOKKOS_FORCEINLINE_FUNCTION auto each(const F& f, const ForceSums<V, D>&... a) -> ForceSums<decltype(f(a.signal...)), D> {
+  return {each(f, a.t...), f(a.signal...)};
+}
 
 template <class V, int D>
 struct Here {
@@ -21,37 +25,43 @@ struct Here {
   Sym<V, D> strain;
   Vec<V, D> depth_slope;
 };
+template <class F, class V, int D>
+KOKKOS_FORCEINLINE_FUNCTION auto each(const F& f, const Here<V, D>& a) -> Here<decltype(f(a.rho)), D> {
+  return {each(f, a.x),      each(f, a.v),  f(a.rho),  f(a.h), f(a.inv_h), f(a.pressure), f(a.celerity), f(a.weight_per_mass),
+          each(f, a.strain), each(f, a.depth_slope)};
+}
 
 // The neighbour's end of a pair; what a stabilisation does not use is not loaded.
 template <class V, int D>
 struct There {
-  Vec<V, D> x_ij, v;
+  Vec<V, D> v;
   V m, rho, h, inv_h, pressure, celerity, weight;
   Sym<V, D> strain;
   Vec<V, D> depth_slope;
 };
 
+// apart: x_ij
 template <class K, class Stabilise, class V, int D>
 KOKKOS_FORCEINLINE_FUNCTION void add_pair(const K& kernel, const Stabilise& stabilise, const Here<V, D>& i, const There<V, D>& j,
-                                          ForceSums<V, D>& sum) {
-  const V r2 = dot(j.x_ij, j.x_ij) + least_square<V>, rho_sum = i.rho + j.rho;
-  const V inv = rsqrt(rho_sum * rho_sum * r2);  // 1 / ((rho_i + rho_j) r)
-  const V inv_r = inv * rho_sum, r = r2 * inv_r;
+                                          const Distance<V, D>& apart, ForceSums<V, D>& sum) {
+  const Vec<V, D>& x_ij = apart.x;
+  const PairLength<V> length_ij = length(apart, i.rho + j.rho);
+  const V inv = length_ij.per_factor, inv_r = length_ij.per_r, r = length_ij.r;  // inv = 1 / ((rho_i + rho_j) r)
   const V q_i = r * i.inv_h, q_j = r * j.inv_h;
-  PairState<V> pair{dot(i.v - j.v, j.x_ij), 0.0, 0.0, i.celerity + j.celerity, inv, r2, i.h + j.h, i.rho, j.rho, 0.0, 0.0,
+  PairState<V> pair{dot(i.v - j.v, x_ij), 0.0, 0.0, i.celerity + j.celerity, inv, apart.square, i.h + j.h, i.rho, j.rho, 0.0, 0.0,
                     i.pressure, j.pressure};
   if constexpr (Stabilise::velocity_gradient) {
-    pair.slope_i = quadratic(i.strain, j.x_ij);
-    pair.slope_j = quadratic(j.strain, j.x_ij);
+    pair.slope_i = quadratic(i.strain, x_ij);
+    pair.slope_j = quadratic(j.strain, x_ij);
   }
   if constexpr (Stabilise::depth_gradient) {
-    pair.depth_slope_i = dot(i.depth_slope, j.x_ij);
-    pair.depth_slope_j = dot(j.depth_slope, j.x_ij);
+    pair.depth_slope_i = dot(i.depth_slope, x_ij);
+    pair.depth_slope_j = dot(j.depth_slope, x_ij);
   }
   const PairPressure<V> pressure = stabilise(pair);
   const V from_i = pressure.i * (j.m * i.weight_per_mass) * kernel.slope(q_i);
   const V from_j = pressure.j * j.weight * kernel.slope(q_j);
-  sum.t += ((from_i + from_j) * inv_r) * j.x_ij;
+  sum.t += ((from_i + from_j) * inv_r) * x_ij;
   sum.signal = larger_where(smaller(q_i, q_j) < V(kernel.support), sum.signal, size_of(pair.jump) * inv_r);
 }
 
@@ -64,18 +74,19 @@ struct InternalForce {
   Particles<D> p;
   Stabilise stabilise;
 
-  KOKKOS_FORCEINLINE_FUNCTION There<Lane, D> there(const Vec<Lane, D>& x, int j) const {
-    There<Lane, D> t{x - broadcast(at(p.x, j)), broadcast(at(p.v_pred, j)), p.m(j), p.rho(j), p.h(j), p.inv_h(j), p.pressure(j),
-                     p.celerity(j), p.weight(j), {}, {}};
-    if constexpr (Stabilise::velocity_gradient) t.strain = broadcast(p.strain, j);
-    if constexpr (Stabilise::depth_gradient) t.depth_slope = broadcast(at(p.depth_slope, j));
+  template <class V>
+  KOKKOS_FORCEINLINE_FUNCTION There<V, D> there(int j) const {
+    There<V, D> t{broadcast<V>(at(p.v_pred, j)), p.m(j), p.rho(j), p.h(j), p.inv_h(j), p.pressure(j), p.celerity(j), p.weight(j),
+                  {}, {}};
+    if constexpr (Stabilise::velocity_gradient) t.strain = broadcast<V>(p.strain, j);
+    if constexpr (Stabilise::depth_gradient) t.depth_slope = broadcast<V>(at(p.depth_slope, j));
     return t;
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION There<Twin, D> there(const Vec<Lane, D>& x, int a, int b, Twin keep) const {
+  KOKKOS_FORCEINLINE_FUNCTION There<Twin, D> there(int a, int b, Twin keep) const {
     using S = StateSlot;
     const TwinRecord<16> j(p.single.state(a), p.single.state(b));
-    There<Twin, D> t{apart(x, p.x, a, b), two_vectors<S::v, D>(j), keep * j.get<S::m>(), j.get<S::rho>(), j.get<S::h>(),
+    There<Twin, D> t{two_vectors<S::v, D>(j), keep * j.get<S::m>(), j.get<S::rho>(), j.get<S::h>(),
                      j.get<S::inv_h>(), j.get<S::pressure>(), j.get<S::celerity>(), keep * j.get<S::weight>(), {}, {}};
     if constexpr (Stabilise::velocity_gradient) t.strain = two_matrices<S::strain, D>(j);
     if constexpr (Stabilise::depth_gradient) t.depth_slope = two_vectors<S::depth_slope, D>(j);
@@ -83,32 +94,40 @@ struct InternalForce {
   }
 
   KOKKOS_FORCEINLINE_FUNCTION static Here<Twin, D> in_single(const Here<Lane, D>& i) {
-    return {{}, twice(i.v), twice(i.rho), twice(i.h), twice(i.inv_h), twice(i.pressure), twice(i.celerity),
-            twice(i.weight_per_mass), twice(i.strain), twice(i.depth_slope)};
+    return each(Twice{}, i);
   }
 
   KOKKOS_FORCEINLINE_FUNCTION ForceSums<Lane, D> all(int c, const Here<Lane, D>& i) const {
     if constexpr (single) {
       const ForceSums<Twin, D> sum = walk_single(c, i.x, in_single(i));
-      return {folded(sum.t), folded_largest(sum.signal)};
+      return {each(Folded{}, sum.t), folded_largest(sum.signal)};
     } else {
-      return walk(c, i, [](int) { return true; });
+      return by_register<Lane>(i, [&](const auto& some, int part) FRESHET_INLINE_LAMBDA {
+        return walk_some(near.of(c, part), some, [](int) { return true; });
+      });
     }
   }
 
   KOKKOS_FORCEINLINE_FUNCTION ForceSums<Twin, D> walk_single(int c, const Vec<Lane, D> x, const Here<Twin, D> i) const {
     ForceSums<Twin, D> sum;
-    for_each_twin(near, c, [&](int a, int b, Twin keep) { add_pair(kernel, stabilise, i, there(x, a, b, keep), sum); });
+    for_each_twin(near, c, [&](int a, int b, Twin keep) {
+      add_pair(kernel, stabilise, i, there(a, b, keep), distance(apart(x, p.x, a, b)), sum);
+    });
     return sum;
   }
 
+  template <class Counts>
+  KOKKOS_FORCEINLINE_FUNCTION ForceSums<Lane, D> walk(int c, const Here<Lane, D>& i, const Counts& counts) const {
+    return by_register<Lane>(i, [&](const auto& some, int) FRESHET_INLINE_LAMBDA { return walk_some(near.of(c), some, counts); });
+  }
   // The sums over the neighbours that count. A local result and a copy of i: what has an address known elsewhere would be
   // written and read again at every pair.
-  template <class Counts>
-  KOKKOS_FORCEINLINE_FUNCTION ForceSums<Lane, D> walk(int c, const Here<Lane, D> i, const Counts& counts) const {
-    ForceSums<Lane, D> sum;
-    near.for_each(c, [&](int j) {
-      if (counts(j)) add_pair(kernel, stabilise, i, there(i.x, j), sum);
+  template <class V, class Counts>
+  KOKKOS_FORCEINLINE_FUNCTION ForceSums<V, D> walk_some(const NearList& neighbours, const Here<V, D> i, const Counts& counts) const {
+    ForceSums<V, D> sum;
+    const auto apart = [&](int j) FRESHET_INLINE_LAMBDA { return distance(i.x - broadcast<V>(at(p.x, j))); };
+    for_each_distance<V>(neighbours, apart, [&](int j, const Distance<V, D>& x_ij) FRESHET_INLINE_LAMBDA {
+      if (counts(j)) add_pair(kernel, stabilise, i, there<V>(j), x_ij, sum);
     });
     return sum;
   }

@@ -3,7 +3,7 @@
 #pragma once
 #include <variant>
 
-#include "cellgrid/pack.hpp"
+#include "cellgrid/lanes.hpp"
 
 namespace freshet::swe {
 

@@ -159,7 +159,7 @@ void write(JsonWriter& out, const SolverWork& w) {
 std::string json(const Summary& s) {
   JsonWriter out;
   out.begin().value("case", s.scene_case).value("method", s.method).value("version", s.version);
-  out.value("backend", s.backend).value("threads", s.threads);
+  out.value("backend", s.backend).value("registers", s.registers).value("threads", s.threads);
   out.begin("particles").value("initial", s.initial_particles).value("final", s.final_particles).end();
   out.value("steps", s.steps).value("list_rebuilds", s.list_rebuilds).value("simulated_s", s.simulated);
   out.value("wall_s", s.wall).value("particle_steps_per_s", s.particle_steps_per_s);

@@ -87,7 +87,7 @@ struct SolverWork {
 };
 
 struct Summary {
-  std::string scene_case, method, backend, version;
+  std::string scene_case, method, backend, registers, version;
   int threads = 0;
   int initial_particles = 0, final_particles = 0;
   long steps = 0, list_rebuilds = 0;

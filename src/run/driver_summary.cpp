@@ -69,6 +69,7 @@ Summary Driver::summary() const {
   s.scene_case = scene_.name;
   s.method = method_.name();
   s.backend = backend_name();
+  s.registers = registers_name();
   s.version = build::version;
   s.threads = thread_count();
   s.initial_particles = initial_particles_;

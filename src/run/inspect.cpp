@@ -132,9 +132,10 @@ int points_command(const Arguments& arguments, const Parts&) {
 
 void print_version() {
   const auto runtime = start_kokkos(0);
-  std::printf("freshet %s (%s)\nbackend   %s, %d threads\nKokkos    %s\ncompiler  %s\nbuild     %s: %s\n",
-              build::version, build::git, backend_name(), thread_count(), build::kokkos, build::compiler,
-              build::type, build::flags);
+  const std::string better = better_registers();
+  std::printf("freshet %s (%s)\nbackend   %s, %d threads\nregisters %s%s%s\nKokkos    %s\ncompiler  %s\nbuild     %s: %s\n",
+              build::version, build::git, backend_name(), thread_count(), registers_name(), better.empty() ? "" : "; ",
+              better.c_str(), build::kokkos, build::compiler, build::type, build::flags);
 }
 
 }  // namespace freshet

@@ -126,6 +126,8 @@ RunProfile profile_run(const Scene& scene, Method& method, const std::string& di
   profile.scene = scene.name;
   profile.method = method.name();
   profile.backend = backend_name();
+  profile.registers = registers_name();
+  profile.better = better_registers();
   profile.threads = thread_count();
   profile.output_every = scene.output.every;
   profile.peaks = peaks;

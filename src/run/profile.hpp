@@ -17,7 +17,8 @@ struct PassProfile {
 };
 
 struct RunProfile {
-  std::string scene, method, backend;
+  std::string scene, method, backend, registers;
+  std::string better;  // what to do for wider registers, where the machine has them (cellgrid/runtime.hpp)
   int threads = 0;
   long first_step = 0, steps = 0;
   double particle_steps = 0;

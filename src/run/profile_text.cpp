@@ -57,11 +57,12 @@ void put_pass(JsonWriter& out, const RunProfile& p, const PassProfile& pass) {
 
 std::string table(const RunProfile& p) {
   std::string lines =
-      text("%s, %s: steps %ld to %ld, %.0f particles, %d thread%s (%s); peaks %.1f GFLOP/s, triad %.1f GB/s\n", p.scene.c_str(),
+      text("%s, %s: steps %ld to %ld, %.0f particles, %d thread%s (%s, %s); peaks %.1f GFLOP/s, triad %.1f GB/s\n", p.scene.c_str(),
            p.method.c_str(), p.first_step + 1, p.first_step + p.steps, per(p.particle_steps, static_cast<double>(p.steps)), p.threads,
-           p.threads == 1 ? "" : "s", p.backend.c_str(), 1e-9 * p.peaks.flops, 1e-9 * p.peaks.bytes) +
+           p.threads == 1 ? "" : "s", p.backend.c_str(), p.registers.c_str(), 1e-9 * p.peaks.flops, 1e-9 * p.peaks.bytes) +
       text("%-26s %7s %8s %5s %9s %8s %7s %7s %8s %6s %6s\n", "launch", "calls", "s", "%", "us/call", "ns/part.", "M p./s", "M pairs",
            "GFLOP/s", "GB/s", "%roof");
+  if (!p.better.empty()) lines = "built for " + p.registers + ", while " + p.better + "\n" + lines;
   for (const PassProfile& pass : p.passes) lines += row(p, pass);
   lines += shares(p);
   lines += text("density: %.2f evaluations per cluster, at most %d; lists made again %ld times\n", p.newton_mean, p.newton_max, p.rebuilds);
@@ -72,7 +73,7 @@ std::string table(const RunProfile& p) {
 
 std::string json(const RunProfile& p) {
   JsonWriter out;
-  out.begin().value("scene", p.scene).value("method", p.method).value("backend", p.backend).value("threads", p.threads);
+  out.begin().value("scene", p.scene).value("method", p.method).value("backend", p.backend).value("registers", p.registers).value("threads", p.threads);
   out.value("first_step", p.first_step).value("steps", p.steps).value("particles", per(p.particle_steps, static_cast<double>(p.steps)));
   out.value("wall", p.wall).value("simulated", p.simulated).value("particle_steps_per_s", per(p.particle_steps, p.wall));
   out.value("seconds_per_simulated_second", per(p.wall, p.simulated));

@@ -1,6 +1,6 @@
 // Packs across a border between objects (pack_border.cpp).
 #pragma once
-#include "cellgrid/pack.hpp"
+#include "cellgrid/lanes.hpp"
 #include "cellgrid/vec.hpp"
 
 namespace freshet::test {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <string>
@@ -25,8 +26,10 @@ inline void say(const double* values, int n) {
 
 // What the hidden test of that name says with so many threads; empty if it does not pass.
 inline std::string said(const std::string& hidden_test, int threads) {
-  const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
-  const std::string command = "FRESHET_TEST_THREADS=" + std::to_string(threads) + " '" + program + "' '" + hidden_test + "' 2>&1";
+  std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
+  const char* emulator = std::getenv("FRESHET_TEST_EMULATOR");  // of a program that is not for this machine
+  program = (emulator ? std::string(emulator) + " '" : "'") + program + "'";
+  const std::string command = "FRESHET_TEST_THREADS=" + std::to_string(threads) + " " + program + " '" + hidden_test + "' 2>&1";
   FILE* pipe = popen(command.c_str(), "r");
   std::string said;
   std::array<char, 256> line{};

@@ -81,6 +81,27 @@ void check_cluster(const Listed<D>& s, const Lanes& me, const std::vector<int>& 
   }
 }
 
+// The particles of a part: lanes beyond the last particle repeat it.
+Lanes part_of(const Lanes& me, int part) {
+  const int width = lanes / parts_of_cluster, first = part * width, count = std::min(me.count - first, width);
+  return count > 0 ? Lanes{me.first + first, count} : Lanes{me.first + me.count - 1, 1};
+}
+
+// The lists of the parts against all particles, too. Where lists are longer than a place can say (255) a part has the whole list.
+template <int D>
+void check_parts(const Listed<D>& s, int c, Faults& faults) {
+  std::vector<int> times;
+  const NeighbourView view = s.list.view();
+  const bool own_lists = parts_of_cluster == 1 || view.part_length.extent(0) > 0;
+  CHECK(own_lists == (parts_of_cluster == 1 || view.list.extent_int(1) <= 256));
+  for (int part = 0; part < parts_of_cluster; ++part) {
+    times.assign(static_cast<size_t>(s.fields.size()), 0);
+    const NearList near = view.of(c, part);
+    for (int k = 0; k < near.n; ++k) ++times[static_cast<size_t>(near[k])];
+    check_cluster(s, own_lists ? part_of(s.clusters(c), part) : s.clusters(c), times, faults);
+  }
+}
+
 template <int D>
 Faults faults_of(const Listed<D>& s) {
   Faults faults;
@@ -94,6 +115,7 @@ Faults faults_of(const Listed<D>& s) {
     times.assign(covered.size(), 0);
     s.list.view().for_each(c, [&](int j) { ++times[static_cast<size_t>(j)]; });
     check_cluster(s, me, times, faults);
+    check_parts(s, c, faults);
   }
   for (const int count : covered) faults.uncovered += count != 1;
   return faults;

@@ -149,14 +149,18 @@ TEST_CASE("a profile of a scene that ends early counts the steps that there were
 
 TEST_CASE("a profile as a table and as JSON") {
   RunProfile p;
-  p.scene = "pond", p.method = "sph-swe", p.backend = "Serial", p.threads = 1;
+  p.scene = "pond", p.method = "sph-swe", p.backend = "Serial", p.registers = "AVX2", p.threads = 1;
   p.first_step = 20, p.steps = 10, p.particle_steps = 1e4, p.wall = 2e-3, p.simulated = 0.1, p.newton_mean = 1.25, p.newton_max = 3;
   p.step = 1.5e-3, p.launched_in_step = 1.4e-3, p.launched = 1.4e-3, p.output_every = 0.5, p.per_output = 1e-3;
   p.peaks = {1e11, 1e10};
   p.passes = {{"swe::force", 10, 1e-3, {1e4, 2e5, 4e5, 4e7, 1e6}}, {"nobody's", 2, 1e-4, {}}};
   const std::string lines = table(p), text = json(p);
   using Catch::Contains;
-  CHECK_THAT(lines, Contains("pond, sph-swe: steps 21 to 30, 1000 particles, 1 thread (Serial)"));
+  CHECK_THAT(lines, Contains("pond, sph-swe: steps 21 to 30, 1000 particles, 1 thread (Serial, AVX2)"));
+  CHECK_THAT(text, Contains("\"registers\": \"AVX2\""));
+  CHECK(lines.find("built for") == std::string::npos);  // nothing better to be had
+  p.better = "this machine has AVX-512: a build uses it";
+  CHECK_THAT(table(p), Contains("built for AVX2, while this machine has AVX-512: a build uses it\n"));
   // 1e-3 s of 2e-3 s; 1e4 particles, 2e5 pairs and 4e7 operations in 1e-3 s; 40 of 100 GFLOP/s is nearer to its roof than 1 of 10 GB/s
   CHECK_THAT(lines, Contains("swe::force                      10    0.001  50.0     100.0   100.00      10     200       40      1     40"));
   CHECK_THAT(lines, Contains("nobody's                         2    0.000   5.0      50.0    10.00       -       -        -      -      -"));

@@ -77,9 +77,7 @@ TEST_CASE("smoothing: exactly nothing outside the support, a decreasing positive
 
 TEST_CASE("smoothing: packs give what scalars give") {
   for (double q = 0; q < 2.2; q += 0.05) {
-    Lane v;
-    for (int l = 0; l < lanes; ++l) set_lane(v, l, q + 0.005 * l);
-    const auto k = CubicSpline<2>::at(v);
+    const auto k = CubicSpline<2>::at(lanes_of<Lane>([&](int lane) { return q + 0.005 * lane; }));
     for (int l = 0; l < lanes; ++l) {
       const auto scalar = CubicSpline<2>::at(q + 0.005 * l);
       CHECK(lane_of(k.w, l) == Approx(scalar.w).margin(1e-15));  // other contractions of multiply and add
