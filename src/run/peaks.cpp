@@ -10,12 +10,14 @@ namespace {
 
 #ifdef FRESHET_DEVICE
 using Register = double;
+constexpr bool many_registers = true;
 #else
 using Register = pack<double, register_bytes / static_cast<int>(sizeof(double))>;
+constexpr bool many_registers = register_bytes == 64;
 #endif
 constexpr int width = sizeof(Register) / sizeof(double);
-// Independent chains: enough to hide the latency of two units, few enough for the registers (32 with AVX-512 and NEON, else 16).
-constexpr int chains = register_bytes == 64 ? 16 : 12;
+// Independent chains: enough to hide the latency of two units, few enough for the registers (AVX-512 has 32, AVX2 and SSE 16).
+constexpr int chains = many_registers ? 16 : 12;
 
 struct MultiplyAdd {
   int steps;
