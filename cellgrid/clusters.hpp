@@ -52,13 +52,15 @@ struct Lanes {
   }
 };
 
-// Without what stands in lanes beyond the last particle.
-KOKKOS_FORCEINLINE_FUNCTION double sum_of(const Lanes& me, Lane a) {
-  double total = 0;
-  for_each_lane(a, [&](int lane, double one) {
-    if (lane < me.count) total += one;
-  });
-  return total;
+// Particles 0 ... n - 1 by lanes.
+KOKKOS_FORCEINLINE_FUNCTION int blocks(int n) { return (n + lanes - 1) / lanes; }
+KOKKOS_FORCEINLINE_FUNCTION Lanes block(int b, int n) { return {b * lanes, smaller(lanes, n - b * lanes)}; }
+
+// Zero in lanes beyond the last particle.
+KOKKOS_FORCEINLINE_FUNCTION Lane counted(const Lanes& me, Lane a) {
+  if (me.count == lanes) return a;
+  for (int lane = me.count; lane < lanes; ++lane) set_lane(a, lane, 0.0);
+  return a;
 }
 
 // One value in every lane: the neighbour's side of a pair.
@@ -83,7 +85,7 @@ KOKKOS_FORCEINLINE_FUNCTION Sym<V, 2> broadcast(const SymField<double, 2>& f, in
 class ClusterSet {
  public:
   void cut(const Rows& rows);
-  int size() const { return size_; }
+  KOKKOS_FORCEINLINE_FUNCTION int size() const { return size_; }
   KOKKOS_FORCEINLINE_FUNCTION Lanes operator()(int cluster) const { return {first_(cluster), count_(cluster)}; }
 
  private:

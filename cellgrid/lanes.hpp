@@ -98,7 +98,7 @@ struct pack<T, W, B, false> {
   friend KOKKOS_FORCEINLINE_FUNCTION pack rsqrt(pack a) { return {rsqrt(a.low), rsqrt(a.high)}; }
   friend KOKKOS_FORCEINLINE_FUNCTION pack bits_as_number(pack a) { return {bits_as_number(a.low), bits_as_number(a.high)}; }
   friend KOKKOS_FORCEINLINE_FUNCTION pack number_as_bits(pack a) { return {number_as_bits(a.low), number_as_bits(a.high)}; }
-  friend KOKKOS_FORCEINLINE_FUNCTION pack together(pack a) { return {together(a.low), together(a.high)}; }
+  friend KOKKOS_FORCEINLINE_FUNCTION pack rounded(pack a) { return {rounded(a.low), rounded(a.high)}; }
 };
 
 // ---- Words that change the number or the kind of lanes ----------------------------------------------------------------------
@@ -223,9 +223,11 @@ KOKKOS_FORCEINLINE_FUNCTION double lane_of(double a, int) { return a; }
 KOKKOS_FORCEINLINE_FUNCTION void set_lane(double& a, int, double value) { a = value; }
 KOKKOS_FORCEINLINE_FUNCTION double largest(double a) { return a; }
 KOKKOS_FORCEINLINE_FUNCTION double smallest(double a) { return a; }
-// Not taken apart by -fassociative-math, so that what is symmetric in i and j is so to the bit.
-KOKKOS_FORCEINLINE_FUNCTION double together(double a) {
-#if defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__) && !defined(KOKKOS_ENABLE_CUDA) && !defined(KOKKOS_ENABLE_HIP)
+// A number of its own: a product is not contracted into a multiply-add with what is done next.
+KOKKOS_FORCEINLINE_FUNCTION double rounded(double a) {
+#if defined(__CUDA_ARCH__) || defined(__HIP_DEVICE_COMPILE__)
+  return __dadd_rn(a, 0.0);
+#elif defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__) && !defined(KOKKOS_ENABLE_CUDA) && !defined(KOKKOS_ENABLE_HIP)
   return __builtin_assoc_barrier(a);
 #else
   return a;

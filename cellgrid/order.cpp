@@ -53,20 +53,23 @@ struct Keys {
   Field<int> id;
   bool plane;
 
-  static KOKKOS_FORCEINLINE_FUNCTION Lane cell(Lane c, double n) { return select(c < Lane(n - 1), larger(c, Lane(0.0)), Lane(n - 1)); }
+  static KOKKOS_FORCEINLINE_FUNCTION LaneIndex cell(Lane c, int first, int n) {
+    const Lane low(static_cast<double>(first)), high(static_cast<double>(first + n - 1));
+    return to_index(select(c < high, larger(c, low), high)) - first;
+  }
   KOKKOS_FORCEINLINE_FUNCTION LaneIndex operator()(const Lanes& me) const {
-    const LaneIndex bin = to_index(cell((me.load(x) - rows.x0) * rows.per_bin_width, rows.bins));
-    const LaneIndex row = plane ? to_index(cell((me.load(y) - rows.y0) * rows.per_row_height, rows.rows)) : LaneIndex(0);
+    const LaneIndex bin = cell((me.load(x) - rows.x_origin) * rows.per_bin_width, rows.first_bin, rows.bins);
+    const LaneIndex row = plane ? cell((me.load(y) - rows.y_origin) * rows.per_row_height, rows.first_row, rows.rows) : LaneIndex(0);
     const Lane key = to_real(row * (rows.columns * Rows::block_bins) + bin);
     return to_index(select(Lane(-0.5) < to_real(me.load(id)), key, Lane(-1.0)));
   }
 };
 
 // Threads count in tables of their own: an atomic takes ten times as long as an addition. Of more threads, or where most cells
-// are empty, the tables would cost more.
+// are empty, the tables would cost more; of 4e8 cells they would have more counters than an int has numbers.
 int tables_for(int cells, int n) {
   const int threads = thread_count();
-  return threads > 4 || cells / 4 > n ? 1 : threads == 3 ? 4 : threads;
+  return threads > 4 || cells / 4 > n || cells > 400000000 ? 1 : threads == 3 ? 4 : threads;
 }
 
 // Counts a particle in its cell; its key becomes that counter, its slot the number of those before it there.
@@ -109,7 +112,8 @@ void reserve(View& view, const char* label, int n) {
   if (view.extent_int(0) < n) view = View(Kokkos::ViewAllocateWithoutInitializing(label), static_cast<size_t>(n + n / 2));
 }
 
-int cells(double length, double width) { return static_cast<int>(length / width) + 1; }
+// Cells of a width that cover a length; a period's own rounding makes no further one.
+int cells(double length, double width) { return std::max(static_cast<int>(std::ceil(length / width - 1e-9)), 1); }
 
 // Restores the order by id within one bin; bins hold about one particle, but clustered input may fill them.
 KOKKOS_INLINE_FUNCTION void sort_by_id(int* order, int n, const int* id) {
@@ -150,25 +154,34 @@ struct Blocks {
 
 }  // namespace
 
-RowOrder::RowOrder(int dimension, double spacing) : dimension_(dimension), spacing_(spacing) {}
-
-void RowOrder::lay_grid(const FieldSet& particles) {
-  const int n = particles.size();
-  const Extent e = extent_of(x_, y_, id_, n);
-  const double width = e.xhi - e.xlo, height = e.yhi - e.ylo;
-  if (!std::isfinite(width + height)) return;  // a lost particle: keep the last grid, the monitor reports it
-  rows_.x0 = e.xlo;
-  rows_.y0 = e.ylo;
-  rows_.row_height = 2 * spacing_;
-  rows_.bin_width = 0.5 * spacing_;
-  const double most = std::min(4.0 * n + 4096, 3e7);  // blocks: a stray particle must not make a huge table
+RowOrder::RowOrder(int dimension, double spacing, const Box& domain) : dimension_(dimension), spacing_(spacing) {
+  constexpr double most = 3e7;  // blocks of the whole domain: what a stray particle may make of the window
+  const double width = domain.xhi - domain.xlo, height = dimension == 2 ? domain.yhi - domain.ylo : 0;
+  rows_.x_origin = domain.xlo;
+  rows_.y_origin = dimension == 2 ? domain.ylo : 0;
+  rows_.row_height = 2 * spacing;
+  rows_.bin_width = 0.5 * spacing;
   while (height / rows_.row_height > most) rows_.row_height *= 2;
-  rows_.rows = cells(height, rows_.row_height);
-  while (width / (Rows::block_bins * rows_.bin_width) * rows_.rows > most) rows_.bin_width *= 2;
-  rows_.bins = cells(width, rows_.bin_width);
-  rows_.columns = (rows_.bins - 1) / Rows::block_bins + 1;
+  domain_rows_ = cells(height, rows_.row_height);
+  while (width / (Rows::block_bins * rows_.bin_width) * domain_rows_ > most) rows_.bin_width *= 2;
+  domain_bins_ = cells(width, rows_.bin_width);
   rows_.per_row_height = 1 / rows_.row_height;
   rows_.per_bin_width = 1 / rows_.bin_width;
+}
+
+// The window begins at a whole square of bins, so that what is built on those is fixed in space too.
+void RowOrder::lay_window(const FieldSet& particles) {
+  const Extent e = extent_of(x_, y_, id_, particles.size());
+  const auto bin = [&](double x) { return Rows::cell((x - rows_.x_origin) * rows_.per_bin_width, 0, domain_bins_); };
+  const auto row = [&](double y) { return Rows::cell((y - rows_.y_origin) * rows_.per_row_height, 0, domain_rows_); };
+  const int square = std::max(1, static_cast<int>(std::lround(rows_.row_height / rows_.bin_width)));
+  rows_.first_bin = bin(e.xlo) / square * square;
+  rows_.first_row = row(e.ylo);
+  rows_.bins = bin(e.xhi) - rows_.first_bin + 1;
+  rows_.rows = row(e.yhi) - rows_.first_row + 1;
+  rows_.x0 = rows_.x_origin + rows_.first_bin * rows_.bin_width;
+  rows_.y0 = rows_.y_origin + rows_.first_row * rows_.row_height;
+  rows_.columns = (rows_.bins - 1) / Rows::block_bins + 1;
 }
 
 // Which blocks hold particles; returns how many cells they have. Keys: block and bin within it, -1 = to be dropped.
@@ -232,7 +245,7 @@ void RowOrder::sort(FieldSet& particles) {
   x_ = particles.real("x");
   y_ = dimension_ == 2 ? particles.real("y") : Field<double>();
   id_ = particles.integer("id");
-  lay_grid(particles);
+  lay_window(particles);
   const int cells = keep_blocks(particles);
   count_bins(particles, cells);
   place(particles, cells);

@@ -168,7 +168,7 @@ KOKKOS_FORCEINLINE_FUNCTION V first_four(const float* from) {
   return V{from[0], from[1], from[2], from[3]};
 }
 template <class V>
-KOKKOS_FORCEINLINE_FUNCTION V together(V a) {
+KOKKOS_FORCEINLINE_FUNCTION V rounded(V a) {
 #if defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__)
   return __builtin_assoc_barrier(a);
 #else
@@ -301,7 +301,7 @@ struct pack<T, W, B, true> {
   friend KOKKOS_FORCEINLINE_FUNCTION pack rsqrt(pack a) { return pack(registers::rsqrt(a.v)); }
   friend KOKKOS_FORCEINLINE_FUNCTION pack bits_as_number(pack a) { return pack(registers::bits_as_number(a.v)); }
   friend KOKKOS_FORCEINLINE_FUNCTION pack number_as_bits(pack a) { return pack(registers::number_as_bits(a.v)); }
-  friend KOKKOS_FORCEINLINE_FUNCTION pack together(pack a) { return pack(registers::together(a.v)); }
+  friend KOKKOS_FORCEINLINE_FUNCTION pack rounded(pack a) { return pack(registers::rounded(a.v)); }
 
  private:
   template <class Value, int... l>

@@ -4,7 +4,7 @@ namespace freshet {
 
 template <int D>
 void Pairs::build(int particles, const PairRequest<D>& request) {
-  list(particles, Nearby<D>(request));
+  list(particles, request.rows, Nearby<D>(request));
 }
 
 template <>

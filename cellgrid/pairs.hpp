@@ -1,5 +1,5 @@
-// Pairs whose coefficients are stored (SELL-W): W consecutive particles are the lanes of a slice, and entry e of a slice holds
-// one neighbour of each lane. Made once for particles at rest; matrix products and pair passes then stream through the entries.
+// Pairs whose coefficients are stored (SELL-W): the W particles of a cluster are the lanes of a slice, and entry e of a slice holds
+// one neighbour of each lane. Slices are cut row by row as clusters are, so a particle's slice hangs on its own row alone. Made once for particles at rest; matrix products and pair passes then stream through the entries.
 // Short rows are padded with the particle itself: x_j - x_i = 0, so whatever vanishes with the distance needs no mask.
 #pragma once
 #include "cellgrid/clusters.hpp"
@@ -36,14 +36,13 @@ KOKKOS_FORCEINLINE_FUNCTION Lane load_each(const double* table, const int* index
 // The pairs as the device sees them. A coefficient is a Field with one value per entry and lane (Pairs::coefficient).
 struct PairView {
   int particles = 0;
+  ClusterSet clusters;  // the slices' particles
   Field<int> start;  // first entry of slice s; slices() + 1 values
   Field<int> j;      // neighbour of lane l in entry e at [e * lanes + l]
   Field<int> slot;   // where its vectors stand, likewise; the same field as j where there are no images
 
-  KOKKOS_FORCEINLINE_FUNCTION int slices() const { return (particles + lanes - 1) / lanes; }
-  KOKKOS_FORCEINLINE_FUNCTION Lanes operator()(int slice) const {
-    return {slice * lanes, smaller(lanes, particles - slice * lanes)};
-  }
+  KOKKOS_FORCEINLINE_FUNCTION int slices() const { return clusters.size(); }
+  KOKKOS_FORCEINLINE_FUNCTION Lanes operator()(int slice) const { return clusters(slice); }
   KOKKOS_FORCEINLINE_FUNCTION static size_t at(int entry, int lane = 0) { return static_cast<size_t>(entry) * lanes + lane; }
 
   KOKKOS_FORCEINLINE_FUNCTION PairIndex neighbours(int entry) const {
@@ -137,10 +136,10 @@ class Pairs {
   template <int D>
   void build(int particles, const PairRequest<D>& request);
 
-  // visit(i, put) calls put(j, slot) for every neighbour of i, the same ones each time that it is asked. images: some slot is
-  // not j. Listing again keeps the room that there is; more is made with some to spare.
+  // visit(i, put) calls put(j, slot) for every neighbour of i, the same ones each time that it is asked. rows: the particles' order.
+  // images: some slot is not j. Listing again keeps the room that there is; more is made with some to spare.
   template <class Visit>
-  void list(int particles, const Visit& visit, bool images = false);
+  void list(int particles, const Rows& rows, const Visit& visit, bool images = false);
 
   const PairView& view() const { return view_; }
   int entries() const { return entries_; }  // of all slices; a coefficient has lanes times as many values
@@ -198,10 +197,11 @@ void fill_pairs(const PairView& view, const Visit& visit) {
 }
 
 template <class Visit>
-void Pairs::list(int particles, const Visit& visit, bool images) {
+void Pairs::list(int particles, const Rows& rows, const Visit& visit, bool images) {
   view_.particles = particles;
+  view_.clusters.cut(rows);
   const int slices = view_.slices();
-  if (view_.start.extent_int(0) <= slices) view_.start = Field<int>("cellgrid.pair_start", static_cast<size_t>(slices + 1));
+  if (view_.start.extent_int(0) <= slices) view_.start = Field<int>("cellgrid.pair_start", static_cast<size_t>(slices + slices / 8 + 1));
   entries_ = place_slices(view_, visit);
   const size_t held = view_.j.extent(0), wanted = PairView::at(entries_), room = held > 0 ? wanted + wanted / 4 : wanted;
   const auto indices = [](const char* label, size_t n) { return Field<int>(Kokkos::ViewAllocateWithoutInitializing(label), n); };

@@ -1,36 +1,225 @@
-// Sums over particles that do not depend on the number of threads: chunks of fixed size, added in order.
+// Sums over particles that do not depend on the order of the terms, so neither on threads, chunks, lanes nor who stands where:
+// every term is cut at fixed places into integers of 32 bits, and integers are added. What is cut off lies below 2^-64 of the
+// largest term (a double's own rounding is 2^-53 of each).
 #pragma once
-#include "cellgrid/types.hpp"
+#include "cellgrid/clusters.hpp"
 
 namespace freshet {
 
-class OrderedSums {
+// A sum as three integers, in units of 2^(32 top), 2^(32 (top - 1)) and 2^(32 (top - 2)). top: where the largest term so far
+// begins. Exact for 1e9 terms. Terms of 2^960 and more count as infinite, what lies below 2^-928 as zero.
+class IntegerSum {
  public:
-  // values(i) returns a Kokkos::Array<double, K>; returns their sum over i < n. What values() writes on the way is one fused
-  // pass. The scratch is kept for the next call. Chunk: smaller where each i is itself much work, as a cluster of particles.
-  template <int K, int Chunk = 512, class Values>
-  Kokkos::Array<double, K> sum(const char* label, int n, const Values& values) {
-    const int chunks = (n + Chunk - 1) / Chunk;
-    if (partial_.extent_int(0) < chunks * K)
-      partial_ = Field<double>(Kokkos::ViewAllocateWithoutInitializing("cellgrid.partial_sums"), static_cast<size_t>(2 * chunks * K));
-    const Field<double> partial = partial_;
-    Kokkos::parallel_for(label, Range(0, chunks), KOKKOS_LAMBDA(int c) {
-          Kokkos::Array<double, K> sum{};
-          for (int i = c * Chunk; i < smaller((c + 1) * Chunk, n); ++i) {
-            const Kokkos::Array<double, K> value = values(i);
-            for (int k = 0; k < K; ++k) sum[k] += value[k];
-          }
-          for (int k = 0; k < K; ++k) partial(c * K + k) = sum[k];
-        });
-    const auto host = on_host(partial);
-    Kokkos::Array<double, K> total{};
-    for (int c = 0; c < chunks; ++c)
-      for (int k = 0; k < K; ++k) total[k] += host(c * K + k);
-    return total;
+  static constexpr int bits = 32, parts = 3, lowest = -27, highest = 29;
+
+  // 2^(32 place)
+  static KOKKOS_FORCEINLINE_FUNCTION double unit(int place) {
+    const long long pattern = static_cast<long long>(bits * place + 1023) << 52;
+    double value;
+    __builtin_memcpy(&value, &pattern, sizeof value);
+    return value;
+  }
+  // The place at which a term begins: |term| < unit(place + 1).
+  static KOKKOS_FORCEINLINE_FUNCTION int place_of(double term) {
+    long long pattern;
+    __builtin_memcpy(&pattern, &term, sizeof pattern);
+    const int exponent = static_cast<int>(pattern >> 52 & 0x7ff);  // biased by 1023 = 32 x 32 - 1
+    return larger((exponent + 1) / bits - 32, lowest);
+  }
+  static KOKKOS_FORCEINLINE_FUNCTION bool is_finite(double term) { return -unit(highest + 1) < term && term < unit(highest + 1); }
+
+  KOKKOS_INLINE_FUNCTION int top() const { return top_; }
+  KOKKOS_FORCEINLINE_FUNCTION void add_units(int part, long long units) { part_[part] += units; }
+  KOKKOS_INLINE_FUNCTION void add_not_finite(double term) { odd_ += term < 0 ? -1 / zero() : term > 0 ? 1 / zero() : term; }
+
+  // Parts that lie too low for the new place are forgotten, of every term alike.
+  KOKKOS_INLINE_FUNCTION void raise(int place) {
+    const int steps = smaller(place - top_, parts);
+    if (steps <= 0) return;
+    for (int k = parts - 1; k >= 0; --k) part_[k] = k >= steps ? part_[k - steps] : 0;
+    top_ = place;
+  }
+  KOKKOS_INLINE_FUNCTION void add(const IntegerSum& other) {
+    raise(other.top_);
+    for (int k = 0; k + top_ - other.top_ < parts; ++k) part_[k + top_ - other.top_] += other.part_[k];
+    odd_ += other.odd_;
+  }
+
+  // Rounded once or twice; infinite or NaN where a term was.
+  double value() const {
+    long long digit[parts] = {part_[0], part_[1], part_[2]};
+    for (int k = parts - 1; k > 0; --k) {  // digits of -2^31 ... 2^31: what leads is then larger than what follows
+      const long long carry = (digit[k] + (1ll << (bits - 1))) >> bits;
+      digit[k] -= carry * (1ll << bits);
+      digit[k - 1] += carry;
+    }
+    double sum = 0;
+    for (int k = parts - 1; k >= 0; --k) sum += static_cast<double>(digit[k]) * unit(top_ - k);
+    return sum + odd_;
   }
 
  private:
-  Field<double> partial_;
+  static KOKKOS_FORCEINLINE_FUNCTION double zero() { return 0; }
+
+  long long part_[parts] = {0, 0, 0};
+  double odd_ = 0;  // the sum of terms that are not finite
+  int top_ = lowest;
 };
+
+// The terms of some slices in a row, lane by lane: in doubles, which hold the integers of 2^20 slices exactly. A value, so that
+// it stays in registers.
+struct LaneSum {
+  static constexpr int parts = IntegerSum::parts;
+  double limit, shift[parts];
+  Lane part[parts];
+
+  static KOKKOS_FORCEINLINE_FUNCTION LaneSum from(int top) {
+    LaneSum sum;
+    sum.limit = IntegerSum::unit(top + 1);
+    for (int k = 0; k < parts; ++k) {
+      sum.shift[k] = 0x1.8p52 * IntegerSum::unit(top - k);
+      sum.part[k] = Lane(0.0);
+    }
+    return sum;
+  }
+  KOKKOS_INLINE_FUNCTION void end(IntegerSum& total) const {
+    for (int k = 0; k < parts; ++k)
+      for_each_lane(part[k] * IntegerSum::unit(k - total.top()),
+                    [&](int, double units) { total.add_units(k, static_cast<long long>(units)); });
+  }
+};
+
+// |term| < sum.limit
+KOKKOS_FORCEINLINE_FUNCTION LaneSum added(LaneSum sum, Lane term) {
+  for (int k = 0; k < LaneSum::parts; ++k) {
+    const Lane units = (term + sum.shift[k]) - sum.shift[k];  // to the nearest multiple of the part's unit
+    term -= units;
+    sum.part[k] += units;
+  }
+  return sum;
+}
+
+// Makes room for a term larger than any before; what is not finite goes elsewhere.
+__attribute__((noinline)) KOKKOS_INLINE_FUNCTION LaneSum added_anew(const LaneSum& sum, IntegerSum& total, Lane term) {
+  sum.end(total);
+  Lane finite(0.0);
+  for_each_lane(term, [&](int lane, double one) {
+    if (!IntegerSum::is_finite(one)) return total.add_not_finite(one);
+    total.raise(IntegerSum::place_of(one));
+    set_lane(finite, lane, one);
+  });
+  return added(LaneSum::from(total.top()), finite);
+}
+
+// The term as a number of its own: a product that is rounded to units at once would leave the rest of a double's.
+KOKKOS_FORCEINLINE_FUNCTION LaneSum added(const LaneSum& sum, IntegerSum& total, Lane term) {
+  term = rounded(term);
+  const Lane limit(sum.limit);
+  if (any(!((-limit < term) & (term < limit)))) return added_anew(sum, total, term);
+  return added(sum, term);
+}
+
+// K sums at once, and how Kokkos joins those of threads.
+template <int K>
+struct IntegerSums {
+  IntegerSum of[K];
+};
+template <int K>
+struct JoinedSums {
+  using reducer = JoinedSums;
+  using value_type = IntegerSums<K>;
+  using result_view_type = Kokkos::View<value_type, Kokkos::HostSpace, Kokkos::MemoryUnmanaged>;
+  value_type* result;
+
+  KOKKOS_INLINE_FUNCTION void join(value_type& to, const value_type& from) const {
+    for (int k = 0; k < K; ++k) to.of[k].add(from.of[k]);
+  }
+  // Kokkos 3 passes what it joins as volatile; no other thread looks at it.
+  KOKKOS_INLINE_FUNCTION void join(volatile value_type& to, const volatile value_type& from) const {
+    join(const_cast<value_type&>(to), const_cast<const value_type&>(from));
+  }
+  KOKKOS_INLINE_FUNCTION void init(value_type& value) const { value = value_type(); }
+  KOKKOS_INLINE_FUNCTION value_type& reference() const { return *result; }
+  KOKKOS_INLINE_FUNCTION result_view_type view() const { return result_view_type(result); }
+  KOKKOS_INLINE_FUNCTION bool references_scalar() const { return true; }
+};
+
+// K terms, or their sums, and those of a slice's particles.
+template <int K>
+using Addends = Kokkos::Array<double, K>;
+template <int K>
+using LaneAddends = Kokkos::Array<Lane, K>;
+
+// each(i) returns the Addends<K> of particle i.
+template <int K, class Each>
+KOKKOS_FORCEINLINE_FUNCTION LaneAddends<K> addends_of(const Lanes& me, const Each& each) {
+  double term[K][lanes] = {};
+  for (int lane = 0; lane < me.count; ++lane) {
+    const Addends<K> one = each(me.first + lane);
+    for (int k = 0; k < K; ++k) term[k][lane] = one[k];
+  }
+  LaneAddends<K> terms;
+  for (int k = 0; k < K; ++k) terms[k] = loaded<Lane>(term[k]);
+  return terms;
+}
+
+// The terms of particles 0 ... n - 1 by slices, of one call for a slice's particles together or of one for each.
+template <int K, class Values>
+struct AddendsTogether {
+  Values values;
+  int n;
+  KOKKOS_FORCEINLINE_FUNCTION LaneAddends<K> operator()(int s) const {
+    const Lanes me = block(s, n);
+    LaneAddends<K> terms = values(me);
+    for (int k = 0; k < K; ++k) terms[k] = counted(me, terms[k]);
+    return terms;
+  }
+};
+template <int K, class Values>
+struct AddendsApart {
+  Values values;
+  int n;
+  KOKKOS_FORCEINLINE_FUNCTION LaneAddends<K> operator()(int s) const { return addends_of<K>(block(s, n), values); }
+};
+
+// A row of slices that one thread sums.
+template <int K, class Values>
+struct SumOfSlices {
+  static constexpr int row = lanes > 1 ? 64 : 512;
+  Values values;
+  int slices;
+
+  KOKKOS_FUNCTION void operator()(int r, IntegerSums<K>& total) const {
+    LaneSum sum[K];
+    for (int k = 0; k < K; ++k) sum[k] = LaneSum::from(total.of[k].top());
+    const int end = smaller((r + 1) * row, slices);
+    for (int s = r * row; s < end; ++s) {
+      const LaneAddends<K> terms = values(s);
+      for (int k = 0; k < K; ++k) sum[k] = added(sum[k], total.of[k], terms[k]);
+    }
+    for (int k = 0; k < K; ++k) sum[k].end(total.of[k]);
+  }
+};
+
+// values(s) returns the LaneAddends<K> of slice s, zero in lanes that do not count (see counted). What it writes on the way makes one
+// fused pass. Waits for the result.
+template <int K, class Values>
+Addends<K> sum_of_slices(const char* label, int slices, const Values& values) {
+  using Pass = SumOfSlices<K, Values>;
+  IntegerSums<K> total;
+  Kokkos::parallel_reduce(label, Range(0, (slices + Pass::row - 1) / Pass::row), Pass{values, slices}, JoinedSums<K>{&total});
+  Addends<K> result;
+  for (int k = 0; k < K; ++k) result[k] = total.of[k].value();
+  return result;
+}
+
+// Likewise of particles 0 ... n - 1: values(me) returns LaneAddends<K> of a slice's particles, or values(i) the Addends<K> of one.
+template <int K, class Values>
+Addends<K> sum_of_particles(const char* label, int n, const Values& values) {
+  if constexpr (std::is_invocable_v<Values, Lanes>)
+    return sum_of_slices<K>(label, blocks(n), AddendsTogether<K, Values>{values, n});
+  else
+    return sum_of_slices<K>(label, blocks(n), AddendsApart<K, Values>{values, n});
+}
 
 }  // namespace freshet

@@ -1,5 +1,7 @@
 #include "kernels/walls.hpp"
 
+#include <algorithm>
+
 #include "cellgrid/balanced.hpp"
 #include "cellgrid/box.hpp"
 
@@ -22,11 +24,19 @@ Stretch stretch_of(WallKind kind) {
   return kind == WallKind::mvbp ? Stretch{2, {2, 4}} : Stretch{1, {1, 1}};
 }
 
+Box box_of(const std::vector<WallLine>& lines, double beyond) {
+  Box box{1e300, -1e300, 1e300, -1e300};
+  for (const WallLine& line : lines)
+    for (const auto& [x, y] : line)
+      box = {std::min(box.xlo, x), std::max(box.xhi, x), std::min(box.ylo, y), std::max(box.yhi, y)};
+  return {box.xlo - beyond, box.xhi + beyond, box.ylo - beyond, box.yhi + beyond};
+}
+
 }  // namespace
 
 template <int D>
 Walls<D>::Walls(const std::vector<WallLine>& lines, const WallOptions& options, const std::array<double, 2>& inside, double support)
-    : order_(D, options.spacing), near_(32, "walls::list", false), kind_(options.kind), stretch_(stretch_of(options.kind)),
+    : order_(D, options.spacing, box_of(lines, 8 * options.spacing)), near_(32, "walls::list", false), kind_(options.kind), stretch_(stretch_of(options.kind)),
       // A virtual particle lies twice as far away as its wall point; a neighbour's image may stand right behind the wall.
       reach_(support / stretch_.factor[0]), depth_(2 * options.spacing) {
   const WallGeometry g = lay_walls(D, lines, options, inside);

@@ -28,7 +28,7 @@ struct AllSlices {
 // omega x_i + sum_j a_ij (x_i - x_j), a_ij = k A_ij / d_ij: the free surface's matrix (kernels/sisph/coefficients.hpp).
 class System {
  public:
-  explicit System(int wanted) : side_(static_cast<int>(std::lround(std::sqrt(wanted)))), fields_(side_ * side_), order_(2, 1.0) {
+  explicit System(int wanted) : side_(static_cast<int>(std::lround(std::sqrt(wanted)))), fields_(side_ * side_), order_(2, 1.0, {-1.0, side_ + 1.0, -1.0, side_ + 1.0}) {
     place();
     order_.sort(fields_);
     x_ = {fields_.real("x"), fields_.real("y")};
@@ -71,12 +71,12 @@ class System {
   void multiply_anew() {
     using Found = sisph::RecomputedPairs<2, CubicSpline<2>, false, false>;
     const Found found{std::get<CubicSpline<2>>(kernel_), places_, {depth_, depth_, depth_, {}}, stiffness_};
-    (void)sums_.sum<1, 64>("perf::product_anew", g_.pairs.slices(),
+    (void)sum_of_slices<1>("perf::product_anew", g_.pairs.slices(),
                            linear::PairProduct<AllSlices, Found>{g_.pairs, {}, found, diagonal_, g_.free, right_, result_});
   }
 
   double multiply(const Vector& x, const Vector& y) {
-    return sums_.sum<1, 64>("perf::product", g_.pairs.slices(),
+    return sum_of_slices<1>("perf::product", g_.pairs.slices(),
                             linear::PairProduct<AllSlices>{g_.pairs, {}, {a_}, diagonal_, g_.free, x, y})[0];
   }
   void multiply() { multiply(right_, result_); }
@@ -113,7 +113,6 @@ class System {
   Vector a_, diagonal_, inverse_, depth_, right_, found_, result_;
   linear::ParticleMesh<2> mesh_;
   linear::ConjugateGradients cg_;
-  OrderedSums sums_;
 };
 
 void print(const char* what, double seconds, double n, double bytes, double triad) {

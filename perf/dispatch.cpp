@@ -24,6 +24,7 @@
 #include "kernels/swe/internal_force.hpp"
 #include "kernels/swe/motion.hpp"
 #include "src/method.hpp"
+#include "src/scene/place.hpp"
 
 using namespace freshet;
 
@@ -121,7 +122,7 @@ Variant solver(const std::string& name, const Scene& scene, int against = -1) {
 class Recipe {
  public:
   explicit Recipe(const Scene& scene)
-      : method_(make_method(scene)), fields_(method_->fields()), order_(2, scene.water.spacing), sph_(scene.sph),
+      : method_(make_method(scene)), fields_(method_->fields()), order_(2, scene.water.spacing, sorted_box(scene)), sph_(scene.sph),
         gravity_(scene.gravity), kernel_(make_kernel<2>(scene.sph.kernel, scene.sph.eta, false)), dt_(slow * method_->stable_dt()) {}
 
   void step() {

@@ -126,7 +126,7 @@ void Poisson<D>::multiply(const Field<double>& x, const Field<double>& y) {
   matrix_.multiply(x, y);
   if (!singular_) return;
   const int n = matrix_.rows;
-  const double mean = sums_.sum<1>("fpm::mean", n, KOKKOS_LAMBDA(int i) { return Kokkos::Array<double, 1>{{x(i)}}; })[0] / n;
+  const double mean = sum_of_particles<1>("fpm::mean", n, KOKKOS_LAMBDA(const Lanes& me) { return LaneAddends<1>{{me.load(x)}}; })[0] / n;
   Kokkos::parallel_for("fpm::add_mean", Range(0, n), KOKKOS_LAMBDA(int i) { y(i) += mean; });
 }
 
@@ -153,7 +153,7 @@ PoissonReport Poisson<D>::solve(const PoissonData& data, const Field<double>& ps
   report.solve = krylov_.solve(n, [this](const auto& x, const auto& y) { multiply(x, y); },
                                [this](const auto& r, const auto& z) { precondition(r, z); }, b_, psi, options);
   if (!singular_) return report;
-  const double mean = sums_.sum<1>("fpm::mean", n, KOKKOS_LAMBDA(int i) { return Kokkos::Array<double, 1>{{psi(i)}}; })[0] / n;
+  const double mean = sum_of_particles<1>("fpm::mean", n, KOKKOS_LAMBDA(const Lanes& me) { return LaneAddends<1>{{me.load(psi)}}; })[0] / n;
   Kokkos::parallel_for("fpm::take_mean", Range(0, n), KOKKOS_LAMBDA(int i) { psi(i) -= mean; });
   return report;
 }

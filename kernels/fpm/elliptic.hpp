@@ -65,7 +65,6 @@ class Poisson {
   Field<double> per_source_, per_flux_, b_;
   linear::MeshWeights weights_;
   Field<int> free_;  // 1 where psi is unknown
-  OrderedSums sums_;
   int unknowns_ = 0;
   bool singular_ = false;
   bool on_mesh_ = true;

@@ -35,7 +35,7 @@ PoissonReport Projection::pressure_of_flow(const Flow& flow, const Field<double>
       });
   linear::BiCgStabOptions options;
   options.tolerance = rule_.tolerance;
-  options.floor = 1e-12 * root(linear::dot(sums_, flow.points, flow.p, flow.p));
+  options.floor = 1e-12 * root(linear::dot(flow.points, flow.p, flow.p));
   return poisson_.solve({flow.source, flow.flux, flow.value}, pressure, options);
 }
 

@@ -2,6 +2,7 @@
 
 #include "kernels/fpm/holding.hpp"
 #include "kernels/fpm/merging.hpp"
+#include "kernels/ids.hpp"
 
 namespace freshet::fpm {
 namespace {
@@ -187,7 +188,7 @@ void Points::fill_places(FieldSet& points, int merged, int count) {
 }
 
 void Points::settle_places(FieldSet& points, int n, int merged, int& next_id) {
-  const int places = merged + points.size() - n, first_id = next_id;
+  const int places = merged + points.size() - n, first_id = take_ids(next_id, places - merged);
   const VecField<double, 2> x{points.real("x"), points.real("y")}, where = where_, open{points.real("open_x"), points.real("open_y")};
   const Field<double> slack = place_slack_;
   const Field<int> kind = points.integer("kind"), side = points.integer("side"), id = points.integer("id");
@@ -203,7 +204,6 @@ void Points::settle_places(FieldSet& points, int n, int merged, int& next_id) {
         id(i) = first_id + k - merged;
         if (slack(k) > 0 || kind(i) != in_fluid) put(open, i, {});  // those on surface edges have their owner's
       });
-  next_id += places - merged;
 }
 
 void Points::hold_velocities(FieldSet& points) {

@@ -208,14 +208,14 @@ void Projection::smooth_edges(const Flow& flow) {
 // the sum of squares of the residuals that leave each point its own speed [Pa].
 double Projection::residual_of_speed(const Neighbourhood<2>& around, const Flow& flow, const Backward& time) {
   const Field<double> per_source = poisson_.per_source(), h = around.h;
-  const double sum = sums_.sum<1>("fpm::speed", flow.points, KOKKOS_LAMBDA(int i) {
+  const double sum = sum_of_particles<1>("fpm::speed", flow.points, KOKKOS_LAMBDA(int i) {
     const double share = per_source(i) / h(i);
-    return Kokkos::Array<double, 1>{{share * share * dot(at(flow.v, i), at(flow.v, i))}};
+    return Addends<1>{{share * share * dot(at(flow.v, i), at(flow.v, i))}};
   })[0];
   return rule_.density / time.tau * root(sum);
 }
 
 // Root of the sum of squares of q [Pa].
-double Projection::pressure_scale(const Flow& flow) { return root(linear::dot(sums_, flow.points, flow.q, flow.q)); }
+double Projection::pressure_scale(const Flow& flow) { return root(linear::dot(flow.points, flow.q, flow.q)); }
 
 }  // namespace freshet::fpm

@@ -105,7 +105,6 @@ class Projection {
   Stencils<2> stencils_;
   Poisson<2> poisson_;
   ImplicitViscosity viscosity_;
-  OrderedSums sums_;
 };
 
 }  // namespace freshet::fpm

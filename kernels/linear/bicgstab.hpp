@@ -32,18 +32,18 @@ class BiCgStab {
                                      const BiCgStabOptions& options) {
     for (Vector* v : {&r_, &r0_, &p_, &v_, &t_, &mp_, &ms_}) reserve(*v, "bicgstab", n);
     multiply(x, r_);
-    const double bb = dot(sums_, n, b, b);
-    double rr = subtract_from(sums_, n, b, r_);
+    const double bb = dot(n, b, b);
+    double rr = subtract_from(n, b, r_);
     const double goal2 = squared_goal(options, bb);
     BiCgStabReport report;
     double rho = 0, alpha = 0, omega = 0;
     for (bool fresh = true; rr > goal2 && report.iterations < options.max_iterations; ++report.iterations) {
-      const double rho_new = fresh ? restart(n, rr) : dot(sums_, n, r0_, r_);
+      const double rho_new = fresh ? restart(n, rr) : dot(n, r0_, r_);
       direction(n, fresh ? 0.0 : rho_new / rho * (alpha / omega), omega);
       rho = rho_new;
       precondition(p_, mp_);
       multiply(mp_, v_);
-      alpha = rho / dot(sums_, n, r0_, v_);
+      alpha = rho / dot(n, r0_, v_);
       rr = step_along(n, alpha);  // r is s now
       if (rr <= goal2) {
         add(n, alpha, mp_, x);
@@ -52,7 +52,7 @@ class BiCgStab {
       }
       precondition(r_, ms_);
       multiply(ms_, t_);
-      const auto ts_tt = dots(sums_, n, t_, r_, t_);
+      const auto ts_tt = dots(n, t_, r_, t_);
       omega = ts_tt[1] > 0 ? ts_tt[0] / ts_tt[1] : 0;
       rr = advance(n, x, alpha, omega);
       fresh = !(std::abs(rho) > breakdown * rr) || omega == 0;
@@ -82,19 +82,21 @@ class BiCgStab {
   // r -= alpha v; returns r . r
   double step_along(int n, double alpha) {
     const Vector r = r_, v = v_;
-    return sums_.sum<1>("bicgstab::step_along", n, KOKKOS_LAMBDA(int i) {
-      r(i) -= alpha * v(i);
-      return Kokkos::Array<double, 1>{{r(i) * r(i)}};
+    return sum_of_particles<1>("bicgstab::step_along", n, KOKKOS_LAMBDA(const Lanes& me) {
+      const Lane rest = me.load(r) - alpha * me.load(v);
+      me.store(r, rest);
+      return LaneAddends<1>{{rest * rest}};
     })[0];
   }
 
   // x += alpha M p + omega M s, r := s - omega t; returns r . r
   double advance(int n, const Vector& x, double alpha, double omega) {
     const Vector r = r_, t = t_, mp = mp_, ms = ms_;
-    return sums_.sum<1>("bicgstab::advance", n, KOKKOS_LAMBDA(int i) {
-      x(i) += alpha * mp(i) + omega * ms(i);
-      r(i) -= omega * t(i);
-      return Kokkos::Array<double, 1>{{r(i) * r(i)}};
+    return sum_of_particles<1>("bicgstab::advance", n, KOKKOS_LAMBDA(const Lanes& me) {
+      me.store(x, me.load(x) + (alpha * me.load(mp) + omega * me.load(ms)));
+      const Lane rest = me.load(r) - omega * me.load(t);
+      me.store(r, rest);
+      return LaneAddends<1>{{rest * rest}};
     })[0];
   }
 
@@ -108,7 +110,6 @@ class BiCgStab {
   }
 
   Vector r_, r0_, p_, v_, t_, mp_, ms_;
-  OrderedSums sums_;
 };
 
 }  // namespace freshet::linear

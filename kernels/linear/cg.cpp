@@ -13,23 +13,23 @@ void CgVectors::resize(int n) {
 
 CgVectors::Products CgVectors::residual(int n, const Vector& d, const Vector& b) {
   const Vector to_r = r, to_z = z, ax = q;
-  const auto sum = sums.sum<3>("cg::residual", n, KOKKOS_LAMBDA(int i) {
-    const double bi = b(i), ri = bi - ax(i), zi = d(i) * ri;
-    to_r(i) = ri;
-    to_z(i) = zi;
-    return Kokkos::Array<double, 3>{{ri * ri, ri * zi, bi * bi}};
+  const auto sum = sum_of_particles<3>("cg::residual", n, KOKKOS_LAMBDA(const Lanes& me) {
+    const Lane bi = me.load(b), ri = bi - me.load(ax), zi = me.load(d) * ri;
+    me.store(to_r, ri);
+    me.store(to_z, zi);
+    return LaneAddends<3>{{ri * ri, ri * zi, bi * bi}};
   });
   return {sum[0], sum[1], sum[2]};
 }
 
 CgVectors::Products CgVectors::advance(int n, double alpha, const Vector& d, const Vector& x) {
   const Vector to_r = r, to_z = z, along = p, ap = q;
-  const auto sum = sums.sum<2>("cg::advance", n, KOKKOS_LAMBDA(int i) {
-    x(i) += alpha * along(i);
-    const double ri = to_r(i) - alpha * ap(i), zi = d(i) * ri;
-    to_r(i) = ri;
-    to_z(i) = zi;
-    return Kokkos::Array<double, 2>{{ri * ri, ri * zi}};
+  const auto sum = sum_of_particles<2>("cg::advance", n, KOKKOS_LAMBDA(const Lanes& me) {
+    me.store(x, me.load(x) + alpha * me.load(along));
+    const Lane ri = me.load(to_r) - alpha * me.load(ap), zi = me.load(d) * ri;
+    me.store(to_r, ri);
+    me.store(to_z, zi);
+    return LaneAddends<2>{{ri * ri, ri * zi}};
   });
   return {sum[0], sum[1], 0};
 }

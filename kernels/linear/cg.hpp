@@ -53,7 +53,6 @@ struct CgVectors {
     double rr, rz, bb;
   };
   Vector r, z, p, q;  // q: A p, at the start A x
-  OrderedSums sums;
 
   void resize(int n);
   // r := b - q, z := D^-1 r; returns r.r, r.z, b.b

@@ -37,7 +37,7 @@ class MeshCorrection {
   // z := r + P c, the latter where weight > 0; z may be r.
   void add(const Vector& r, const Field<double>& weight, const Vector& z) const;
   // P^T v . c, of an axis that is not periodic
-  double product() { return dot(sums_, multigrid_.finest().grid.size(), multigrid_.finest().right, c_); }
+  double product() { return dot(multigrid_.finest().grid.size(), multigrid_.finest().right, c_); }
 
  private:
   MeshCells cells_;
@@ -48,7 +48,6 @@ class MeshCorrection {
   Vector south_, north_;  // what a row of cells gives to the nodes below and above it
   Vector c_;              // of the last cycle
   int points_ = 0;
-  OrderedSums sums_;
 };
 
 }  // namespace freshet::linear

@@ -4,6 +4,7 @@
 // the load before its store.
 #pragma once
 #include "cellgrid/pairs.hpp"
+#include "cellgrid/sums.hpp"
 
 namespace freshet::linear {
 
@@ -19,7 +20,7 @@ struct StoredPairs {
   }
 };
 
-// slices(k): the k-th slice to visit. Returns the slice's part of x . y (OrderedSums adds them).
+// slices(k): the k-th slice to visit. Returns the terms of x . y.
 template <class Slices, class Coefficients = StoredPairs>
 struct PairProduct {
   PairView pairs;
@@ -27,12 +28,12 @@ struct PairProduct {
   Coefficients a;
   Field<double> diagonal, mask, x, y;
 
-  KOKKOS_FUNCTION Kokkos::Array<double, 1> operator()(int k) const {
+  KOKKOS_FUNCTION LaneAddends<1> operator()(int k) const {
     const int s = slices(k);
     const Lanes me = pairs(s);
     const Lane xi = me.load(x), row = me.load(mask) * (me.load(diagonal) * xi - a.weighted_sum(pairs, s, x)), product = xi * row;
     me.store(y, row);
-    return {{sum_of(me, product)}};
+    return {{counted(me, product)}};
   }
 };
 

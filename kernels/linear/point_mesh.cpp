@@ -25,10 +25,10 @@ void PointMesh::build(const Rows& rows, const VecField<double, 2>& x, int points
 
 double PointMesh::sum_of_weights() {
   const Field<double> weight = weight_;
-  return sums_.sum<1>("point_mesh::weight", points_, KOKKOS_LAMBDA(int i) { return Kokkos::Array<double, 1>{{weight(i)}}; })[0];
+  return sum_of_particles<1>("point_mesh::weight", points_, KOKKOS_LAMBDA(const Lanes& me) { return LaneAddends<1>{{me.load(weight)}}; })[0];
 }
 
-double PointMesh::mean(const Vector& r) { return dot(sums_, points_, weight_, r) / total_weight_; }
+double PointMesh::mean(const Vector& r) { return dot(points_, weight_, r) / total_weight_; }
 
 void PointMesh::operator()(const Vector& r, const Vector& z) {
   const Region region("point_mesh::cycle");

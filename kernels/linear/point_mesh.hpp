@@ -34,7 +34,6 @@ class PointMesh {
   Field<double> weight_;
   double total_weight_ = 0;  // where constants are free, else 0
   int points_ = 0;
-  OrderedSums sums_;
 };
 
 }  // namespace freshet::linear

@@ -1,5 +1,5 @@
-// Vectors of a linear system: the passes that iterative solvers share. Sums are in a fixed order (independent of the number
-// of threads) and each function is one visit to memory; none allocates once `sums` has seen the size.
+// Vectors of a linear system: the passes that iterative solvers share. Sums depend on no order (cellgrid/sums.hpp); each
+// function is one visit to memory.
 // n: unknowns; fields may be longer. Device-safe: KOKKOS_LAMBDA with local copies only.
 #pragma once
 #include "cellgrid/sums.hpp"
@@ -9,20 +9,24 @@ namespace freshet::linear {
 using Vector = Field<double>;
 
 // a . b
-inline double dot(OrderedSums& sums, int n, const Vector& a, const Vector& b) {
-  return sums.sum<1>("linear::dot", n, KOKKOS_LAMBDA(int i) { return Kokkos::Array<double, 1>{{a(i) * b(i)}}; })[0];
+inline double dot(int n, const Vector& a, const Vector& b) {
+  return sum_of_particles<1>("linear::dot", n, KOKKOS_LAMBDA(const Lanes& me) { return LaneAddends<1>{{me.load(a) * me.load(b)}}; })[0];
 }
 
 // {a . b, a . c}
-inline Kokkos::Array<double, 2> dots(OrderedSums& sums, int n, const Vector& a, const Vector& b, const Vector& c) {
-  return sums.sum<2>("linear::dots", n, KOKKOS_LAMBDA(int i) { return Kokkos::Array<double, 2>{{a(i) * b(i), a(i) * c(i)}}; });
+inline Addends<2> dots(int n, const Vector& a, const Vector& b, const Vector& c) {
+  return sum_of_particles<2>("linear::dots", n, KOKKOS_LAMBDA(const Lanes& me) {
+    const Lane with = me.load(a);
+    return LaneAddends<2>{{with * me.load(b), with * me.load(c)}};
+  });
 }
 
 // y := b - y, the residual where y holds A x; returns y . y.
-inline double subtract_from(OrderedSums& sums, int n, const Vector& b, const Vector& y) {
-  return sums.sum<1>("linear::subtract_from", n, KOKKOS_LAMBDA(int i) {
-    y(i) = b(i) - y(i);
-    return Kokkos::Array<double, 1>{{y(i) * y(i)}};
+inline double subtract_from(int n, const Vector& b, const Vector& y) {
+  return sum_of_particles<1>("linear::subtract_from", n, KOKKOS_LAMBDA(const Lanes& me) {
+    const Lane rest = me.load(b) - me.load(y);
+    me.store(y, rest);
+    return LaneAddends<1>{{rest * rest}};
   })[0];
 }
 

@@ -15,10 +15,14 @@ class ActiveSlices {
   bool drying() const { return dry_ > 0; }  // some particle is dry
   long dry() const { return dry_; }
 
+ public:  // device lambdas may not live in private members
+  void number_slices();
+
  private:
   Geometry<D> g_;
   SliceList list_;
   Field<int> near_;  // per slice: 1 = holds water, n + 1 = within n supports of it, 0 = further away
+  Field<int> slice_;  // per particle: its slice
   int dry_ = 0;
 };
 

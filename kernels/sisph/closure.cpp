@@ -14,7 +14,7 @@ struct Springs {
   Geometry<D> g;
   VecField<double, D> x, y;
 
-  KOKKOS_FUNCTION Kokkos::Array<double, 1> operator()(int k) const {
+  KOKKOS_FUNCTION LaneAddends<1> operator()(int k) const {
     const int s = g.slices(k);
     const Lanes me = g.pairs(s);
     const Vec<Lane, D> xi = me.load(x);
@@ -25,7 +25,7 @@ struct Springs {
     });
     sum = free_lanes(g, me) * sum;
     me.store(y, sum);
-    return {{sum_of(me, dot(xi, sum))}};
+    return {{counted(me, dot(xi, sum))}};
   }
 };
 
@@ -95,10 +95,9 @@ ClosureReport close_areas(const Geometry<D>& g) {
   ClosureReport report;
   report.unclosed = openness<D>(g, parts(right, stride, dimension), parts(inverse, stride, dimension));
   if (report.unclosed < closed_already) return report;
-  OrderedSums sums;
   const auto springs = [&](const Field<double>& x, const Field<double>& y) {
     g.images.fill(parts(x, stride, dimension));
-    return sums.sum<1>("sisph::springs", g.slices.count, Springs<D>{g, parts(x, stride, dimension), parts(y, stride, dimension)})[0];
+    return sum_of_slices<1>("sisph::springs", g.slices.count, Springs<D>{g, parts(x, stride, dimension), parts(y, stride, dimension)})[0];
   };
   linear::ConjugateGradients cg;
   cg.resize(size);

@@ -98,9 +98,8 @@ template <int D>
 void scale_areas(const Geometry<D>& g, double cell) {
   const int n = g.pairs.particles;
   const Field<double> omega = g.omega, free = g.free;
-  OrderedSums sums;
-  const auto sum = sums.sum<2>("sisph::covered", n, KOKKOS_LAMBDA(int i) {
-    return Kokkos::Array<double, 2>{{free(i) * omega(i), free(i)}};
+  const auto sum = sum_of_particles<2>("sisph::covered", n, KOKKOS_LAMBDA(int i) {
+    return Addends<2>{{free(i) * omega(i), free(i)}};
   });
   const double factor = sum[0] > 0 ? cell * sum[1] / sum[0] : 1;
   Kokkos::parallel_for("sisph::scale_areas", Range(0, n),

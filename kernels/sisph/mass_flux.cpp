@@ -170,15 +170,11 @@ FluxReport MassFlux<D>::close_depths(const SliceList& active, const Water<D>& wa
   const Field<double> depth = surface.depth(), omega = g_.omega;
   const Geometry<D> g = g_;
   const SliceList list = active;
-  report.clipped = sums_.sum<1>("sisph::clip", active.count, KOKKOS_LAMBDA(int k) {
+  report.clipped = sum_of_slices<1>("sisph::clip", active.count, KOKKOS_LAMBDA(int k) {
     const Lanes me = g.pairs(list(k));
-    double missing = 0;
-    for (int l = 0; l < me.count; ++l) {
-      const int i = me.particle(l);
-      missing += omega(i) * larger(-depth(i), 0.0);
-      depth(i) = larger(depth(i), 0.0);
-    }
-    return Kokkos::Array<double, 1>{{missing}};
+    const Lane left = me.load(depth);
+    me.store(depth, larger(left, Lane(0.0)));
+    return LaneAddends<1>{{counted(me, me.load(omega) * larger(-left, Lane(0.0)))}};
   })[0];
   return report;
 }

@@ -28,7 +28,6 @@ class MassFlux {
   void scale_outflow(const SliceList& active, const FreeSurface<D>& surface);
 
   Geometry<D> g_;
-  OrderedSums sums_;
   Field<double> share_;        // of its outflow that a particle can give
   Field<double> slope_share_;  // of its velocity's slope that its outflow carries
 };

@@ -42,11 +42,6 @@ MovingWater<D>::MovingWater(int particles, const AnyKernel<D>& kernel, const Mir
                            &g_.free})
     *f = scalar(particles);
   g_.inverse = matrices(particles, Vec<double, D>{});
-  const Field<int> all("sisph.slices", static_cast<size_t>((particles + lanes - 1) / lanes));
-  const auto host = Kokkos::create_mirror_view(all);
-  for (int s = 0; s < all.extent_int(0); ++s) host(s) = s;
-  Kokkos::deep_copy(all, host);
-  g_.slices = {all, all.extent_int(0)};
   cg_.resize(particles);
 }
 
@@ -57,12 +52,23 @@ double MovingWater<D>::reach(double dt, double jump) const {
 }
 
 // Coefficients for all pairs and vectors for all images.
+// Rows get longer and shorter, so the number of slices changes.
+template <int D>
+void MovingWater<D>::visit_all(int slices) {
+  g_.slices.count = slices;
+  if (g_.slices.list.extent_int(0) >= slices) return;
+  const Field<int> all("sisph.slices", static_cast<size_t>(slices + slices / 8));
+  Kokkos::parallel_for("sisph::number_slices", Range(0, all.extent_int(0)), KOKKOS_LAMBDA(int s) { all(s) = s; });
+  g_.slices.list = all;
+}
+
 template <int D>
 void MovingWater<D>::make_room() {
   if (g_.area.extent(0) < g_.pairs.j.extent(0)) {
     g_.n = pairs_.template vector_coefficient<D>("sisph.n");
     for (Field<double>* f : {&g_.distance, &g_.weight, &g_.area, &a_}) *f = pairs_.coefficient("sisph.pairs");
   }
+  visit_all(g_.pairs.slices());
   const int wanted = g_.images.slots(), had = end_.x.extent_int(0) - lanes;
   if (had >= wanted) return;
   for (VecField<double, D>* v : {&mixed_, &slope_, &end_, &g_.x, &gradient_.u}) make_longer(*v, wanted + g_.images.count / 4);

@@ -95,6 +95,7 @@ class MovingWater {
  private:
   double reach(double dt, double jump) const;
   void make_room();
+  void visit_all(int slices);
 
   MovingOptions options_;
   Shapes<D> shapes_;
@@ -104,7 +105,6 @@ class MovingWater {
   Geometry<D> g_;
   Followers<D> followers_;
   linear::ConjugateGradients cg_;
-  OrderedSums sums_;
   std::optional<linear::ParticleMesh<D>> mesh_;  // of the places at n
   bool mesh_on_ = false, laid_ = false;          // laid: over the places of this step
   Rows rows_;

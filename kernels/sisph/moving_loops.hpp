@@ -45,7 +45,7 @@ struct Increment {
   Field<double> level, change, inertia, rise, drag, a, right, diagonal, inverse;
   double stiffness, theta, dt;  // g theta^2 dt^2
 
-  KOKKOS_FUNCTION Kokkos::Array<double, 2> operator()(int s) const {
+  KOKKOS_FUNCTION LaneAddends<2> operator()(int s) const {
     const Lanes me = g.pairs(s);
     const Vec<Lane, D> vi = me.load(mixed), up = me.load(slope);
     const Sym<Lane, D> scale = me.load(g.inverse);
@@ -67,7 +67,7 @@ struct Increment {
     me.store(right, b);
     me.store(diagonal, sum);
     me.store(inverse, free / sum);
-    return Kokkos::Array<double, 2>{{sum_of(me, b * b), sum_of(me, omega * omega)}};
+    return LaneAddends<2>{{counted(me, b * b), counted(me, omega * omega)}};
   }
 };
 

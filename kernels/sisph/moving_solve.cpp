@@ -36,7 +36,7 @@ void MovingWater<D>::lay_mesh(double stiffness) {
 template <int D>
 linear::CgReport MovingWater<D>::solve_linear(const linear::CgOptions& options, double stiffness) {
   const auto product = [&](const Field<double>& x, const Field<double>& y) {
-    return sums_.template sum<1, 64>("sisph::product", g_.slices.count,
+    return sum_of_slices<1>("sisph::product", g_.slices.count,
                                      linear::PairProduct<SliceList>{g_.pairs, g_.slices, {a_}, diagonal_, g_.free, x, y})[0];
   };
   if (!mesh_on_) return cg_.solve(product, linear::Jacobi{inverse_}, right_, correction_, options);
@@ -48,7 +48,7 @@ linear::CgReport MovingWater<D>::solve_linear(const linear::CgOptions& options, 
 template <int D>
 std::pair<double, double> MovingWater<D>::set_system(const Swarm<D>& now, double dt, double stiffness) {
   const auto set = [&](const auto& system) {
-    const auto squares = sums_.template sum<2, 64>("sisph::increment", g_.slices.count, system);
+    const auto squares = sum_of_slices<2>("sisph::increment", g_.slices.count, system);
     return std::pair<double, double>{std::sqrt(squares[0]), std::sqrt(squares[1])};
   };
   const auto with = [&](auto dragged) {

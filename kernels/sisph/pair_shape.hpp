@@ -24,7 +24,7 @@ KOKKOS_FORCEINLINE_FUNCTION PairShape<D> pair_shape(const Kernel& kernel, const 
 
 // 2 omega_i omega_j G (1/s_i + 1/s_j) / 2
 KOKKOS_FORCEINLINE_FUNCTION Lane pair_area(Lane omega_i, Lane omega_j, Lane slope, Lane per_i, Lane per_j) {
-  return together(omega_i * omega_j) * slope * together(per_i + per_j);
+  return omega_i * omega_j * slope * (per_i + per_j);
 }
 
 // What the closure multiplies an area by.

@@ -11,7 +11,7 @@ struct Flow {
   Field<double> flux, level;
   double drawn_per_dt;  // 1/dt, or 0 where the flux holds it already
 
-  KOKKOS_FUNCTION Kokkos::Array<double, 2> operator()(int k) const {
+  KOKKOS_FUNCTION LaneAddends<2> operator()(int k) const {
     const int s = rim(k);
     const Lanes me = g.pairs(s);
     const Lane free = free_lanes(g, me), eta = me.load(level);
@@ -22,7 +22,7 @@ struct Flow {
       in += larger(-f, Lane(0.0));
       out += larger(f, Lane(0.0));
     });
-    return Kokkos::Array<double, 2>{{sum_of(me, in), sum_of(me, out)}};
+    return LaneAddends<2>{{counted(me, in), counted(me, out)}};
   }
 };
 
@@ -51,7 +51,7 @@ RimFlow Rim<D>::flow(const FreeSurface<D>& surface, double dt, bool closed) {
   if (list_.count == 0) return {};
   const auto sum = std::visit([&](const auto& a) {
     const Flow<D, std::decay_t<decltype(a)>> pass{g_, list_, a, surface.flux(), surface.level(), closed ? 0.0 : 1 / dt};
-    return sums_.sum<2>("sisph::rim_flow", list_.count, pass);
+    return sum_of_slices<2>("sisph::rim_flow", list_.count, pass);
   }, surface.pairs());
   return {dt * sum[0], dt * sum[1]};
 }

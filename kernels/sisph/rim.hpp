@@ -19,7 +19,6 @@ class Rim {
  private:
   Geometry<D> g_;
   SliceList list_;
-  OrderedSums sums_;
 };
 
 }  // namespace freshet::sisph

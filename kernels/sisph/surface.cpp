@@ -94,7 +94,7 @@ typename FreeSurface<D>::Norms FreeSurface<D>::find_coefficients(const SliceList
     const Coefficients<D, drying, dragged, std::decay_t<decltype(stored)>::value> pass{
         g_,    active,    water,  before, depth_,    level_, drag_,           a, flux_,
         right_, residual_, row_sum_, share_, stiffness, dt,     options_.gravity};
-    return sums_.sum<3>("sisph::coefficients", active.count, pass);
+    return sum_of_slices<3>("sisph::coefficients", active.count, pass);
   };
   if (kernel_) {
     hold_depths(water, drying);
@@ -102,7 +102,7 @@ typename FreeSurface<D>::Norms FreeSurface<D>::find_coefficients(const SliceList
   }
   const auto sums = kernel_ ? visit(std::false_type{}, {}) : visit(std::true_type{}, std::get<linear::StoredPairs>(pairs_).a);
   if (!drying || sums[2] == 0) return {std::sqrt(sums[0]), std::sqrt(sums[1])};
-  const auto limited = sums_.sum<2>("sisph::limit_outflow", active.count,
+  const auto limited = sum_of_slices<2>("sisph::limit_outflow", active.count,
                                     LimitOutflow<D>{g_, active, water.depth, share_, flux_, right_, residual_, dt});
   return {std::sqrt(limited[0]), std::sqrt(limited[1])};
 }
@@ -111,7 +111,7 @@ template <int D>
 double FreeSurface<D>::find_residual(const SliceList& active, const Water<D>& water) {
   return std::visit([&](const auto& a) {
     const Residual<D, std::decay_t<decltype(a)>> pass{g_, active, a, level_, water.bed, right_, depth_, residual_};
-    return std::sqrt(sums_.sum<1>("sisph::residual", active.count, pass)[0]);
+    return std::sqrt(sum_of_slices<1>("sisph::residual", active.count, pass)[0]);
   }, pairs_);
 }
 
@@ -153,7 +153,7 @@ int FreeSurface<D>::solve_linear(const SliceList& active, const Water<D>& water,
   const auto product = [&](const Field<double>& x, const Field<double>& y) {
     return std::visit([&](const auto& a) {
       using Product = linear::PairProduct<SliceList, std::decay_t<decltype(a)>>;
-      return sums_.sum<1>("sisph::product", active.count, Product{g_.pairs, active, a, diagonal_, g_.free, x, y})[0];
+      return sum_of_slices<1>("sisph::product", active.count, Product{g_.pairs, active, a, diagonal_, g_.free, x, y})[0];
     }, pairs_);
   };
   if (!mesh_on_) return cg_.solve(product, linear::Jacobi{inverse_}, residual_, change_, options).iterations;

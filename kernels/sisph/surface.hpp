@@ -93,7 +93,6 @@ class FreeSurface {
   Rows rows_;
   SurfaceOptions options_;
   linear::ConjugateGradients cg_;
-  OrderedSums sums_;
   std::optional<linear::ParticleMesh<D>> mesh_;
   bool mesh_on_ = false;
   Field<double> wet_, mesh_depth_;  // per particle, for the mesh: omega, or 0 where dry or held; m

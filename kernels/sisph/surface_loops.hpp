@@ -42,7 +42,7 @@ struct Coefficients {
     return (hi * per) * vi + (hj * per) * vj;
   }
 
-  KOKKOS_FUNCTION Kokkos::Array<double, 3> operator()(int k) const {
+  KOKKOS_FUNCTION LaneAddends<3> operator()(int k) const {
     const int s = active(k);
     const Lanes me = g.pairs(s);
     const Vec<Lane, D> vi = me.load(before);
@@ -70,7 +70,7 @@ struct Coefficients {
     me.store(row_sum, sum_a);
     me.store(residual, r);
     me.store(share, select(Lane(0.5) < overdrawn, has / (wanted + 1e-300), Lane(1.0)));
-    return {{sum_of(me, r * r), sum_of(me, free * b * b), sum_of(me, overdrawn)}};
+    return {{counted(me, r * r), counted(me, free * b * b), counted(me, overdrawn)}};
   }
 };
 
@@ -83,7 +83,7 @@ struct LimitOutflow {
   Field<double> depth, share, flux, right, residual;
   double dt;
 
-  KOKKOS_FUNCTION Kokkos::Array<double, 2> operator()(int k) const {
+  KOKKOS_FUNCTION LaneAddends<2> operator()(int k) const {
     const int s = active(k);
     const Lanes me = g.pairs(s);
     const Lane mine = me.load(share), free = free_lanes(g, me);
@@ -96,7 +96,7 @@ struct LimitOutflow {
     const Lane b = me.load(g.omega) * me.load(depth) - dt * outflow, r = me.load(residual) + free * (b - me.load(right));
     me.store(right, b);
     me.store(residual, r);
-    return {{sum_of(me, r * r), sum_of(me, free * b * b)}};
+    return {{counted(me, r * r), counted(me, free * b * b)}};
   }
 };
 
@@ -108,7 +108,7 @@ struct Residual {
   Matrix a;
   Field<double> level, bed, right, depth, residual;
 
-  KOKKOS_FUNCTION Kokkos::Array<double, 1> operator()(int k) const {
+  KOKKOS_FUNCTION LaneAddends<1> operator()(int k) const {
     const int s = active(k);
     const Lanes me = g.pairs(s);
     const Lane eta = me.load(level), omega = me.load(g.omega), free = free_lanes(g, me);
@@ -118,7 +118,7 @@ struct Residual {
     const Lane r = free * (volume - omega * larger(eta - me.load(bed), Lane(0.0)));
     me.store(depth, select(Lane(0.5) < free, volume / omega, me.load(depth)));
     me.store(residual, r);
-    return {{sum_of(me, r * r)}};
+    return {{counted(me, r * r)}};
   }
 };
 

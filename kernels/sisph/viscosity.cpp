@@ -54,7 +54,7 @@ struct Product {
   Field<double> pull, mass;
   VecField<double, D> x, y;
 
-  KOKKOS_FUNCTION Kokkos::Array<double, 1> operator()(int k) const {
+  KOKKOS_FUNCTION LaneAddends<1> operator()(int k) const {
     const int s = g.slices(k);
     const Lanes me = g.pairs(s);
     const Vec<Lane, D> xi = me.load(x);
@@ -62,7 +62,7 @@ struct Product {
     g.pairs.for_each(s, [&](int e, PairIndex j) { row += PairView::load(pull, e) * (xi - gather(x, j)); });
     row = free_lanes(g, me) * row;
     me.store(y, row);
-    return {{sum_of(me, dot(xi, row))}};
+    return {{counted(me, dot(xi, row))}};
   }
 };
 
@@ -92,7 +92,7 @@ int Viscosity<D>::find(const Water<D>& water, const Field<double>& drag, const V
                                 parts(inverse_, stride_, like)});
   const auto product = [&](const Field<double>& x, const Field<double>& y) {
     fill_images(g_.images, parts(x, stride_, like), options_.slip);
-    return sums_.sum<1>("sisph::viscous_product", g_.slices.count,
+    return sum_of_slices<1>("sisph::viscous_product", g_.slices.count,
                         Product<D>{g_, pull_, mass_, parts(x, stride_, like), parts(y, stride_, like)})[0];
   };
   linear::CgOptions cg;

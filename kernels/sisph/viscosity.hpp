@@ -32,7 +32,6 @@ class Viscosity {
   ViscosityOptions options_;
   int stride_;  // of the components, one after another
   linear::ConjugateGradients cg_;
-  OrderedSums sums_;
   Field<double> pull_, mass_;              // dt c_ij per pair; m_i (1 + dt gamma_i), m^D x m
   Field<double> right_, inverse_, change_;  // stride_ values per component
 };

@@ -85,7 +85,7 @@ void list_wall_pairs(int particles, const PairRequest<D>& request, const MirrorW
   if (lists.first.extent_int(0) < particles) lists.first = Field<int>("sisph.first_image", static_cast<size_t>(particles));
   const WallPairs<D> visit{Nearby<D>(request), walls, lists.first};
   images.count = count_images(particles, visit);
-  pairs.list(particles, visit, images.count > 0);
+  pairs.list(particles, request.rows, visit, images.count > 0);
   if (images.source.extent_int(0) < images.count) {
     const size_t room = roomy(images.source.extent(0), images.count);
     images.source = Field<int>("sisph.image_source", room);

@@ -1,6 +1,5 @@
 #include "kernels/swe/motion.hpp"
 
-#include "kernels/swe/blocks.hpp"
 
 namespace freshet::swe {
 namespace {

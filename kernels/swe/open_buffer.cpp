@@ -3,11 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/swe/blocks.hpp"
+#include "kernels/ids.hpp"
 #include "kernels/swe/open_exterior.hpp"
 
 namespace freshet::swe {
 namespace {
+
+// In which lanes a particle's kind is that of the owner.
+KOKKOS_FORCEINLINE_FUNCTION auto owned_by(int owner, LaneIndex kind) {
+  const Lane off = to_real(kind) - Lane(static_cast<double>(owner));
+  return off * off < Lane(0.25);
+}
 
 // Columns of boundary particles: the support and two more.
 double columns(const OpenBufferOptions& o) { return std::max(5.0, std::ceil(o.support * o.eta) + 2); }
@@ -143,8 +149,8 @@ Crossed OpenBuffer<D>::convert(FieldSet& particles, const Particles<D>& p, const
   const double trim = 0.75 * options_.spacing, cut = 0.25 * options_.spacing, reach = 1.25 * options_.support;
   const double deepest = 2 * buffer_, summed = options_.summed;
   const int owner = owner_;
-  const auto convert_one = KOKKOS_LAMBDA(int i)->Kokkos::Array<double, 2> {
-        Kokkos::Array<double, 2> in_out{};
+  const auto convert_one = KOKKOS_LAMBDA(int i)->Addends<2> {
+        Addends<2> in_out{};
         const Vec<double, D> x = at(f.x, i);
         const double inside = at_line.inside(x);
         const bool leaves = kind(i) == 0 && inside < 0 && inside > -deepest && at_line.beside(x, 1);
@@ -184,11 +190,11 @@ Crossed OpenBuffer<D>::convert(FieldSet& particles, const Particles<D>& p, const
         return in_out;
       };
   const int n = particles.size();
-  const auto crossed = sums_.template sum<2, 64>("open::convert", blocks(n), KOKKOS_LAMBDA(int b) {
+  const auto crossed = sum_of_slices<2>("open::convert", blocks(n), KOKKOS_LAMBDA(int b) {
         const Lanes me = block(b, n);
         const Lane outside = dot(broadcast(at_line.line.origin) - me.load(f.x), broadcast(at_line.line.inward));
         const bool concerned = any((Lane(0.0) < outside) | owned_by(owner, me.load(kind)));  // hardly any is
-        return concerned ? sum_of(me, convert_one) : Kokkos::Array<double, 2>{};
+        return concerned ? addends_of<2>(me, convert_one) : LaneAddends<2>{};
       });
   return {crossed[0], crossed[1]};
 }
@@ -248,7 +254,7 @@ void OpenBuffer<D>::insert(FieldSet& particles, const Bind<D>& bind, const std::
   const Field<double> calibration = calibrated ? particles.real("calibration") : Field<double>();
   const Exterior<D> exterior{bed, options_.friction, least_depth()};
   const double area = D == 1 ? dx : dx * width_, h = options_.eta * (D == 1 ? area : root(area)), summed = options_.summed;
-  const int first_id = next_id;
+  const int first_id = take_ids(next_id, added);
   Kokkos::parallel_for("open::insert", Range(0, total), KOKKOS_LAMBDA(int r) {
         for (int k = room(r); k < room(r + 1); ++k) {
           const int i = n + k, turn = k - room(r), outer = turn - inner_room(r);
@@ -269,7 +275,6 @@ void OpenBuffer<D>::insert(FieldSet& particles, const Bind<D>& bind, const std::
           new_kind(i) = owner;
         }
       });
-  next_id += added;
 }
 
 template <int D>
@@ -277,13 +282,13 @@ double OpenBuffer<D>::straddling(const Particles<D>& p, const Field<int>& kind, 
   const Frame at_line = frame();
   const Particles<D> f = p;
   const int owner = owner_;
-  return sums_.template sum<1>("open::straddling", n, KOKKOS_LAMBDA(int i) {
+  return sum_of_particles<1>("open::straddling", n, KOKKOS_LAMBDA(int i) {
     const Vec<double, D> x = at(f.x, i);
     const double row = at_line.along(x);
-    if ((kind(i) != 0 && kind(i) != owner) || row < 0 || row > at_line.count) return Kokkos::Array<double, 1>{};
+    if ((kind(i) != 0 && kind(i) != owner) || row < 0 || row > at_line.count) return Addends<1>{};
     const double inside = at_line.inside(x), area = f.m(i) / f.rho(i), width = D == 1 ? area : root(area);
     const double across = larger(0.0, 0.5 - (inside < 0 ? -inside : inside) / width);
-    return Kokkos::Array<double, 1>{(kind(i) == 0 ? -across : across) * f.m(i)};
+    return Addends<1>{(kind(i) == 0 ? -across : across) * f.m(i)};
   })[0];
 }
 

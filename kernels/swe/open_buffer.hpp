@@ -124,7 +124,6 @@ class OpenBuffer {
   Kokkos::View<Extent*, Memory> extent_;
   Field<double> farthest_, nearest_;  // m, outermost and innermost boundary particle of each row
   Field<int> room_, inner_room_;      // boundary particles to insert before each row; of them at the inner edge
-  mutable OrderedSums sums_;
 };
 
 }  // namespace freshet::swe

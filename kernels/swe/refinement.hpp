@@ -76,6 +76,7 @@ class Refinement {
 
  public:  // device lambdas may not live in private members
   void lay_pattern();
+  void rank_parents(const Field<int>& id, int parents);
   void place_daughters(const Particles<D>& p, int parents, int first, int first_id, const WallView<D>& walls) const;
   void choose_partners(const Particles<D>& p, int n, const Field<int>& kind, const ClusterSet& clusters, const NeighbourView& near);
 
@@ -87,6 +88,7 @@ class Refinement {
   VecField<double, D> offset_;  // in h, daughters
   Field<double> share_;
   Field<int> parent_, copy_of_;  // of each split; of each new particle
+  Field<int> parent_ids_;        // ascending
   Field<double> area_;           // m^D of particles that may merge, else huge
   Field<int> partner_;           // the particle that each would merge with, -1: none
 };

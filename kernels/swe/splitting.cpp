@@ -1,6 +1,10 @@
 // Refinement: splitting.
 #include "kernels/swe/refinement.hpp"
 
+#include <Kokkos_Sort.hpp>
+
+#include "kernels/ids.hpp"
+
 namespace freshet::swe {
 namespace {
 
@@ -13,6 +17,17 @@ KOKKOS_FORCEINLINE_FUNCTION Vec<double, 1> stretched(const SymField<double, 1>& 
 }
 KOKKOS_FORCEINLINE_FUNCTION Vec<double, 2> stretched(const SymField<double, 2>& strain, int i, const Vec<double, 2>& d) {
   return {strain.xx(i) * d.x + strain.xy(i) * d.y, strain.xy(i) * d.x + strain.yy(i) * d.y};
+}
+
+// Where a value stands among n ascending ones.
+KOKKOS_INLINE_FUNCTION int rank_in(const Field<int>& sorted, int n, int value) {
+  int first = 0;
+  for (int last = n; first < last;) {
+    const int middle = first + (last - first) / 2;
+    if (sorted(middle) < value) first = middle + 1;
+    else last = middle;
+  }
+  return first;
 }
 
 Field<double>& component(VecField<double, 1>& f, int) { return f.x; }
@@ -52,13 +67,23 @@ int Refinement<D>::split(FieldSet& particles, const Bind& bind, const Field<int>
         ++sum;
       }, parents);
   if (parents == 0 || n + parents * more > split_->most_particles) return 0;
+  const int first_id = take_ids(next_id, parents * more);
+  rank_parents(p.id, parents);
   reserve(copy_of_, "split.copy_of", parents * more);
   const Field<int> copy_of = copy_of_;
   Kokkos::parallel_for("split::copies", Range(0, parents * more), KOKKOS_LAMBDA(int k) { copy_of(k) = parent(k / more); });
   particles.append_copies(copy_of, parents * more);
-  place_daughters(bind(), parents, n, next_id, walls);
-  next_id += parents * more;
+  place_daughters(bind(), parents, n, first_id, walls);
   return parents;
+}
+
+// The parents' ids in ascending order: daughters are numbered by them, not by where their parents stand.
+template <int D>
+void Refinement<D>::rank_parents(const Field<int>& id, int parents) {
+  reserve(parent_ids_, "split.parent_ids", parents);
+  const Field<int> parent = parent_, ids = parent_ids_;
+  Kokkos::parallel_for("split::parent_ids", Range(0, parents), KOKKOS_LAMBDA(int s) { ids(s) = id(parent(s)); });
+  Kokkos::sort(Kokkos::subview(ids, std::pair<int, int>(0, parents)));
 }
 
 // The first daughter takes the parent's place in the fields; the others are copies of the parent so far. rho h^D = kh with
@@ -67,7 +92,7 @@ int Refinement<D>::split(FieldSet& particles, const Bind& bind, const Field<int>
 template <int D>
 void Refinement<D>::place_daughters(const Particles<D>& p, int parents, int first, int first_id, const WallView<D>& walls) const {
   const int daughters = share_.extent_int(0);
-  const Field<int> parent = parent_;
+  const Field<int> parent = parent_, ids = parent_ids_;
   const Field<double> share = share_;
   const VecField<double, D> offset = offset_;
   const double alpha = split_->alpha;
@@ -75,7 +100,7 @@ void Refinement<D>::place_daughters(const Particles<D>& p, int parents, int firs
   const double longest = relax_.longest;
   Kokkos::parallel_for("split::place", Range(0, parents * daughters), KOKKOS_LAMBDA(int q) {
         const int k = q / parents, s = q % parents;  // neighbours in memory belong to different parents
-        const int copy = s * (daughters - 1) + k - 1, i = k == 0 ? parent(s) : first + copy;
+        const int i = k == 0 ? parent(s) : first + s * (daughters - 1) + k - 1;
         const Vec<double, D> from = at(p.x, i), to = walls.inside(from + p.h(i) * at(offset, k));
         put(p.x, i, to);
         const VecField<double, D> velocities[2] = {p.v, p.v_pred};
@@ -85,7 +110,7 @@ void Refinement<D>::place_daughters(const Particles<D>& p, int parents, int firs
         p.h(i) *= alpha;
         p.h0(i) = smaller(p.h(i), larger(p.h0(i), longest));
         p.kh(i) = p.rho(i) * power<D>(p.h(i));
-        if (k > 0) p.id(i) = first_id + copy;
+        if (k > 0) p.id(i) = first_id + rank_in(ids, parents, p.id(parent(s))) * (daughters - 1) + k - 1;
       });
 }
 

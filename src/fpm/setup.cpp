@@ -4,6 +4,7 @@
 
 #include "src/fpm/place.hpp"
 #include "src/fpm/solver.hpp"
+#include "src/scene/place.hpp"
 
 namespace freshet::fpm {
 namespace {
@@ -42,7 +43,7 @@ FlowRule flow_rule(const Fpm& fpm) {
 }  // namespace
 
 Solver::Solver(const Scene& scene)
-    : scene_(scene), order_(2, scene.water.spacing), period_(period_of(scene)), tank_(lines_of(scene.walls)),
+    : scene_(scene), order_(2, scene.water.spacing, sorted_box(scene)), period_(period_of(scene)), tank_(lines_of(scene.walls)),
       management_(point_rule(scene), tank_, period_, {{{"u", "v"}, {"u_old", "v_old"}}, {"p"}}),
       projection_(flow_rule(*scene.fpm), tank_.view()) {
   if (scene.fpm->grading) grading_.emplace(scene);

@@ -89,10 +89,10 @@ Mechanics Solver::mechanics() const {
   const Flow flow = bind();
   const Field<double> area = cell_areas();
   const Vec<double, 2> force{scene_.fpm->force[0], scene_.fpm->force[1]};
-  const auto sum = sums_.sum<4>("fpm::mechanics", flow.points, KOKKOS_LAMBDA(int i) {
+  const auto sum = sum_of_particles<4>("fpm::mechanics", flow.points, KOKKOS_LAMBDA(int i) {
     const Vec<double, 2> v = at(flow.v, i);
     const double a = area(i);
-    return Kokkos::Array<double, 4>{{a * v.x, a * v.y, 0.5 * a * dot(v, v), -a * dot(force, at(flow.x, i))}};
+    return Addends<4>{{a * v.x, a * v.y, 0.5 * a * dot(v, v), -a * dot(force, at(flow.x, i))}};
   });
   return {{sum[0], sum[1]}, sum[2], sum[3]};
 }
@@ -100,7 +100,7 @@ Mechanics Solver::mechanics() const {
 Totals Solver::totals() const {
   const Field<double> area = cell_areas();
   Totals totals;
-  totals.mass = sums_.sum<1>("fpm::area", points_.size(), KOKKOS_LAMBDA(int i) { return Kokkos::Array<double, 1>{{area(i)}}; })[0];
+  totals.mass = sum_of_particles<1>("fpm::area", points_.size(), KOKKOS_LAMBDA(const Lanes& me) { return LaneAddends<1>{{me.load(area)}}; })[0];
   return totals;
 }
 

@@ -55,7 +55,6 @@ class Solver : public Method {
   linear::BiCgStabReport viscosity_;
   PointCount counts_;
   long limited_ = 0, moved_ = 0;  // points x steps, since t = 0: held within their neighbours' velocities; all
-  mutable OrderedSums sums_;
   mutable Field<double> area_, flow_pressure_;
   double last_dt_ = 0;  // s, 0 before the first step
   int next_id_ = 0;

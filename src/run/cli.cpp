@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <new>
 
+#include "kernels/ids.hpp"
 #include "src/errors.hpp"
 #include "src/run/commands.hpp"
 #include "src/scene/diagnostics.hpp"
@@ -105,6 +106,9 @@ int run_cli(int argc, char** argv, const Parts& parts) {
   } catch (const Error& error) {
     print_error(error.what());
     return static_cast<int>(error.exit());
+  } catch (const OutOfIds& error) {
+    print_error(error.what());
+    return static_cast<int>(Exit::scene);
   } catch (const std::bad_alloc&) {
     print_error("not enough memory\n  help: a larger water.spacing or raster.spacing; 'freshet check' says what a scene takes");
     return static_cast<int>(Exit::scene);

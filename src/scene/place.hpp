@@ -2,6 +2,7 @@
 #pragma once
 #include <vector>
 
+#include "cellgrid/box.hpp"
 #include "src/scene/scene.hpp"
 
 namespace freshet {
@@ -20,5 +21,8 @@ Point velocity_at(const Scene& scene, double x, double y);  // m/s, at t = 0
 // of equal mass. depth(x, y) [m]; places where depth > scene.water.wet_above and 1e-9 of the deepest. Throws SceneError if nothing is wet or a
 // depth is not finite.
 std::vector<Placed> place(const Scene& scene, const Function& depth);
+
+// Where particles are looked for [m]: the domain and what buffers and walls have outside it; along a period just the domain.
+Box sorted_box(const Scene& scene);
 
 }  // namespace freshet

@@ -8,8 +8,8 @@ Totals Solver<D>::totals() const {
   Totals totals = passed_;
   const Field<double> mass = particles_.real("mass");
   const Field<int> kind = particles_.integer("kind");
-  totals.mass = sums_.template sum<1>("sisph::mass", particles_.size(), KOKKOS_LAMBDA(int i) {
-    return Kokkos::Array<double, 1>{{kind(i) > 0 ? 0.0 : mass(i)}};
+  totals.mass = sum_of_particles<1>("sisph::mass", particles_.size(), KOKKOS_LAMBDA(int i) {
+    return Addends<1>{{kind(i) > 0 ? 0.0 : mass(i)}};
   })[0];
   totals.flux = totals.inflow - totals.outflow;
   totals.flux_gross = totals.inflow + totals.outflow;
@@ -22,12 +22,12 @@ Mechanics Solver<D>::mechanics() const {
   const Field<double> mass = particles_.real("mass");
   const Field<int> kind = particles_.integer("kind");
   const double g = scene_.gravity;
-  const auto sums = sums_.template sum<4>("sisph::mechanics", particles_.size(), KOKKOS_LAMBDA(int i) {
+  const auto sums = sum_of_particles<4>("sisph::mechanics", particles_.size(), KOKKOS_LAMBDA(int i) {
     const Vec<double, D> v = at(now.v, i);
     const double h = now.depth(i), m = kind(i) > 0 ? 0.0 : mass(i);
     double across = 0;
     if constexpr (D == 2) across = v.y;
-    return Kokkos::Array<double, 4>{{m * v.x, m * across, 0.5 * m * dot(v, v), m * g * (now.bed(i) + 0.5 * h)}};
+    return Addends<4>{{m * v.x, m * across, 0.5 * m * dot(v, v), m * g * (now.bed(i) + 0.5 * h)}};
   });
   return {{sums[0], sums[1]}, sums[2], sums[3]};
 }

@@ -122,7 +122,6 @@ class Solver : public Method {
   StepReport report_;
   Totals passed_;         // inflow and outflow since t = 0
   double speed_ = 0, celerity_ = 0;  // m/s, largest
-  mutable OrderedSums sums_;
 };
 
 }  // namespace freshet::sisph

@@ -26,8 +26,8 @@ Totals Solver<D>::totals() const {
   const Field<int> kinds = kind();
   const bool open = !boundaries_.empty();
   const int n = particles_.size();
-  totals.mass = sums_.template sum<1>("swe::mass", n, KOKKOS_LAMBDA(int i) {
-    return Kokkos::Array<double, 1>{open && kinds(i) != 0 ? 0.0 : p.m(i)};
+  totals.mass = sum_of_particles<1>("swe::mass", n, KOKKOS_LAMBDA(int i) {
+    return Addends<1>{open && kinds(i) != 0 ? 0.0 : p.m(i)};
   })[0];
   for (const auto& boundary : boundaries_) {
     const OpenFlow& flow = boundary.flow();
@@ -48,8 +48,8 @@ Mechanics Solver<D>::mechanics() const {
   const std::optional<Bed<D>> beds = bed();
   const bool open = !boundaries_.empty(), with_bed = beds.has_value(), rising = with_bed && beds->variational;
   const double g = scene_.gravity;
-  const auto sums = sums_.template sum<4>("swe::mechanics", particles_.size(), KOKKOS_LAMBDA(int i) {
-    Kokkos::Array<double, 4> sum{};
+  const auto sums = sum_of_particles<4>("swe::mechanics", particles_.size(), KOKKOS_LAMBDA(int i) {
+    Addends<4> sum{};
     if (open && kinds(i) != 0) return sum;
     const Vec<double, D> v = at(p.v, i);
     const double up = rising ? dot(v, beds->spline.sloped_at(at(p.x, i)).slope) : 0.0;

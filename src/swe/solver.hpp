@@ -78,7 +78,6 @@ class Solver : public Method {
   std::vector<OpenBoundary<D>> boundaries_;
   std::optional<Refinement<D>> refinement_;
   StepReport report_;
-  mutable OrderedSums sums_;
   double crossing_time_ = 0;  // s, least h / (c + signal)
   int next_id_ = 0;
 };

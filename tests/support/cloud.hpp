@@ -67,6 +67,9 @@ inline std::vector<Point> lattice(int dimension, const Block& b, double dx) {
 }
 
 // x, (y), h and id of points, unsorted. ids: empty = in order.
+// A domain for points around the origin: 2000 spacings in each direction.
+inline Box wide(double spacing) { return {-2000 * spacing, 2000 * spacing, -2000 * spacing, 2000 * spacing}; }
+
 inline FieldSet point_fields(int dimension, const std::vector<Point>& points, std::vector<int> ids = {}) {
   if (ids.empty()) ids = numbers(static_cast<int>(points.size()));
   FieldSet f(static_cast<int>(points.size()));
@@ -158,7 +161,7 @@ class Cloud {
   double support() const { return std::visit([](const auto& k) { return k.support; }, kernel); }
 
   Cloud(const std::vector<Grain>& grains, double spacing)
-      : fields(static_cast<int>(grains.size())), order(D, spacing), spacing_(spacing) {
+      : fields(static_cast<int>(grains.size())), order(D, spacing, wide(spacing)), spacing_(spacing) {
     make_fields();
     const swe::Particles<D> p = bind();
     for (std::size_t k = 0; k < grains.size(); ++k) set(p, static_cast<int>(k), grains[k]);

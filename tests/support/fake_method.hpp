@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "src/method.hpp"
+#include "src/scene/place.hpp"
 
 namespace freshet::test {
 
@@ -25,7 +26,7 @@ class FakeMethod : public Method {
   StepReport strained;  // what every step reports
 
   explicit FakeMethod(const Scene& scene)
-      : scene_(scene), fields_(0), order_(scene.domain.dimension, scene.water.spacing) {
+      : scene_(scene), fields_(0), order_(scene.domain.dimension, scene.water.spacing, sorted_box(scene)) {
     const double dx = scene.water.spacing;
     const auto cells = [&](std::size_t a) {
       return static_cast<int>(std::lround((scene.domain.high[a] - scene.domain.low[a]) / dx));

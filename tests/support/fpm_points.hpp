@@ -15,7 +15,7 @@ struct FlowPoints {
   double spacing;  // m
 
   FlowPoints(const std::vector<Point>& points, double dx, const std::vector<Polyline>& walls = {})
-      : fields(point_fields(2, points)), order(2, dx), tank(walls), spacing(dx) {
+      : fields(point_fields(2, points)), order(2, dx, wide(dx)), tank(walls), spacing(dx) {
     fields.integer("kind", "1", Carry::sort);
     fields.integer("surface", "1", Carry::sort);
     order.sort(fields);

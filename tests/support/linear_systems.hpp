@@ -27,11 +27,11 @@ class RowOperator {
     const int* start = matrix_.outerIndexPtr();
     const int* column = matrix_.innerIndexPtr();
     const double* value = matrix_.valuePtr();
-    return sums_.sum<1>("test::rows", size(), [=](int i) {
+    return sum_of_particles<1>("test::rows", size(), [=](int i) {
       double sum = 0;
       for (int k = start[i]; k < start[i + 1]; ++k) sum += value[k] * x(column[k]);
       y(i) = sum;
-      return Kokkos::Array<double, 1>{{x(i) * sum}};
+      return Addends<1>{{x(i) * sum}};
     })[0];
   }
 
@@ -41,7 +41,6 @@ class RowOperator {
 
  private:
   EigenRows matrix_;
-  mutable OrderedSums sums_;
 };
 
 // mass on the diagonal, and conductance(a, b) between neighbouring nodes of an nx x ny grid, numbered x fastest.

@@ -32,7 +32,7 @@ inline PairSystem pair_system(const PairScene& scene) {
   std::vector<Point> points = lattice(2, {0, n, 0, n}, dx);
   Random random(7);
   for (Point& p : points) p = {p[0] + random(-scene.disorder, scene.disorder) * dx, p[1] + random(-scene.disorder, scene.disorder) * dx};
-  PairSystem s{point_fields(2, points), RowOrder(2, dx), {}, {}, {}, {}, {}, {}};
+  PairSystem s{point_fields(2, points), RowOrder(2, dx, wide(dx)), {}, {}, {}, {}, {}, {}};
   s.order.sort(s.fields);
   const auto size = static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
   const Field<double> x = s.fields.real("x"), y = s.fields.real("y");

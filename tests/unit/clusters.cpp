@@ -28,7 +28,7 @@ struct Listed {
   std::vector<double> h;
 
   Listed(const std::vector<Point>& unsorted, const Length& length, int slab = 96)
-      : fields(test::point_fields(D, unsorted)), order(D, dx), list(slab) {
+      : fields(test::point_fields(D, unsorted)), order(D, dx, test::wide(dx)), list(slab) {
     order.sort(fields);
     for (int i = 0; i < fields.size(); ++i)
       fields.real("h")(i) = length({fields.real("x")(i), D == 2 ? fields.real("y")(i) : 0.0});

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <limits>
 #include <set>
 
@@ -19,7 +20,11 @@ struct Sorted {
   FieldSet fields;
   RowOrder order;
   Sorted(int dimension, const std::vector<Point>& points, const std::vector<int>& ids = {})
-      : fields(test::point_fields(dimension, points, ids)), order(dimension, dx) {
+      : fields(test::point_fields(dimension, points, ids)), order(dimension, dx, test::wide(dx)) {
+    order.sort(fields);
+  }
+  Sorted(int dimension, const std::vector<Point>& points, const Box& domain)
+      : fields(test::point_fields(dimension, points)), order(dimension, dx, domain) {
     order.sort(fields);
   }
   int row(int i) const { return fields.has("y") ? order.rows().row_of(fields.real("y")(i)) : 0; }
@@ -134,6 +139,52 @@ TEST_CASE("order: a dropped particle far away does not stretch the grid") {
   CHECK(cells(Sorted(2, points, ids).order.rows()) == before);
 }
 
+TEST_CASE("order: a stray particle changes nobody else's row, bin or place in the order") {
+  const int dimension = GENERATE(1, 2);
+  const double far = GENERATE(-190.0, 150.0, 1e7);  // m; the domain reaches to 200
+  const auto points = test::random_points(dimension, 3000, 2.0, 23);
+  auto with = points;
+  with.push_back({far, dimension == 2 ? -far : 0});
+  const Sorted alone(dimension, points), accompanied(dimension, with);
+  std::vector<int> ids = accompanied.ids();
+  ids.erase(std::remove(ids.begin(), ids.end(), 3000), ids.end());
+  CHECK((ids == alone.ids()));
+  // Who shares a row or a bin with whom.
+  const auto key = [](const Sorted& s, const Point& p) {
+    const Rows& r = s.order.rows();
+    return std::pair(r.first_row + r.row_of(p[1]), r.first_bin + r.bin_of(p[0]));
+  };
+  int differ = 0;
+  for (const Point& p : points) differ += key(alone, p) != key(accompanied, p);
+  CHECK(differ == 0);
+}
+
+TEST_CASE("order: rows and bins stay where they are when the water moves") {
+  const auto points = test::random_points(2, 2000, 1.0, 24);
+  std::vector<Point> right;  // the right half alone: another window of the same grid
+  for (const Point& p : points)
+    if (p[0] > 0.1 && p[1] > -0.3) right.push_back(p);
+  const Sorted all(2, points), half(2, right);
+  const Rows &a = all.order.rows(), &b = half.order.rows();
+  int differ = 0;
+  for (const Point& p : right)
+    differ += a.first_row + a.row_of(p[1]) != b.first_row + b.row_of(p[1]) || a.first_bin + a.bin_of(p[0]) != b.first_bin + b.bin_of(p[0]);
+  CHECK(differ == 0);
+  CHECK(b.first_row > a.first_row);
+  CHECK(b.first_bin > a.first_bin);
+  CHECK(b.x0 == b.x_origin + b.first_bin * b.bin_width);
+}
+
+TEST_CASE("order: a period has as many cells as fit in, wherever its points lie") {
+  // Points at both ends of [0, 3): 60 bins of 0.05, and no 61st by rounding.
+  const double end = std::nextafter(3.0, 0.0);
+  const Sorted s(2, {{0, 0}, {end, end}, {1.5, 1.5}}, Box{0, 3, 0, 3});
+  CHECK(s.order.rows().bins == 60);
+  CHECK(s.order.rows().rows == 15);
+  CHECK(s.order.rows().x0 == 0.0);
+  CHECK(misplaced(s) == 0);
+}
+
 TEST_CASE("order: no particle, one particle") {
   const int dimension = GENERATE(1, 2);
   require_sorted(Sorted(dimension, {}), {});
@@ -174,9 +225,13 @@ TEST_CASE("order: a stray particle does not make a huge grid") {
   if (along != 1) points[500][0] = far;
   if (along != 0 && dimension == 2) points[500][1] = -far;
   const Sorted s(dimension, points);
-  // order.cpp allows 4 N + 4096 rows, and as many blocks; the last block of every row comes on top.
-  CHECK(blocks(s.order.rows()) <= 2 * (4 * 1000 + 4096) + 2);
+  // The domain of 4000 x 4000 spacings has 2000 rows of 250 blocks, and one of each where its ends fall on cells'.
+  CHECK(blocks(s.order.rows()) <= 2001 * 251);
   require_sorted(s, points);
+  // A domain of 1e14 square spacings gets wider cells, whatever the points.
+  const Sorted wide(dimension, points, Box{-1e6, 1e6, -1e6, 1e6});
+  CHECK(blocks(wide.order.rows()) <= 3.1e7);
+  require_sorted(wide, points);
 }
 
 // Runs of particles within a distance of a place, as a list and by looking at every particle.

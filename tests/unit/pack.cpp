@@ -80,7 +80,7 @@ TEMPLATE_TEST_CASE("pack: arithmetic lane by lane", "", EVERY_PACK) {
   require_lanes(a * b, [](int l) { return (1.0 + l) * (-3.0 + 2 * l); });
   require_lanes(-a, [](int l) { return -(1.0 + l); });
   require_lanes(2.5 * a + 1.0, [](int l) { return 2.5 * (1.0 + l) + 1; });
-  require_lanes(together(a), [](int l) { return 1.0 + l; });
+  require_lanes(rounded(a), [](int l) { return 1.0 + l; });
   TestType c = a;
   c += b;
   c *= TestType(2.0);

@@ -18,7 +18,7 @@ constexpr double factor = 2.0;  // support / h
 template <int D>
 struct Paired {
   FieldSet fields;
-  RowOrder order{D, dx};
+  RowOrder order{D, dx, test::wide(dx)};
   Pairs pairs;
 
   explicit Paired(const std::vector<test::Point>& points) : fields(test::point_fields(D, points)) {

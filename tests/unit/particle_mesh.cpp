@@ -105,7 +105,7 @@ TEST_CASE("particle mesh: a line of particles") {
   const int n = 400;
   const double dx = 1.0 / n;
   FieldSet fields = test::point_fields(1, test::lattice(1, {0, n, 0, 1}, dx));
-  RowOrder order(1, dx);
+  RowOrder order(1, dx, test::wide(dx));
   order.sort(fields);
   const VecField<double, 1> x{fields.real("x")};
   const double k = std::pow(50 * dx, 2);

@@ -20,7 +20,7 @@ struct Setting {
 // A basin of 16 x 16 cells, its rim held unless there are walls, under waves; deep, or with a bed that stands out of the water.
 struct Basin {
   FieldSet fields;
-  RowOrder order{2, dx};
+  RowOrder order{2, dx, test::wide(dx)};
   AnyKernel<2> kernel;
   sisph::Geometry<2> g;
   sisph::ClosureReport closure;

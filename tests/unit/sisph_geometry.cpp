@@ -18,7 +18,7 @@ constexpr double dx = 0.1, smoothing = 1.5;  // m, l / dx
 template <int D>
 struct Block {
   FieldSet fields;
-  RowOrder order{D, dx};
+  RowOrder order{D, dx, test::wide(dx)};
   sisph::Geometry<D> g;
 
   explicit Block(double disorder, int cells = 16, int rim = 4) {

@@ -1,6 +1,10 @@
 // Splitting: the optimal shares of the mass, the density that a split leaves, where daughters come to lie, regions.
 #include <catch2/catch.hpp>
 
+#include <limits>
+#include <map>
+
+#include "kernels/ids.hpp"
 #include "kernels/swe/refinement.hpp"
 #include "tests/support/cloud.hpp"
 
@@ -187,6 +191,40 @@ TEST_CASE("splitting: only what covers the area, is deep enough, is fluid and fi
   CHECK(count(options, {}) == 16);
   options.least_depth = 0.31;
   CHECK(count(options, {}) == 0);
+}
+
+TEST_CASE("splitting: daughters are numbered by their parents, not by where these stand in memory") {
+  const int n = 40;
+  test::Random random(9);
+  std::vector<Grain> grains;
+  for (int i = 0; i < n; ++i)  // every third is too small to be split
+    grains.push_back({{random(-1, 1), random(-1, 1)}, {0, 0}, i % 3 == 0 ? 0.5 : 2.0, 1.0, 0.12});
+  const auto options = split_all(swe::split_pattern<2>(7, 0.9, 0.4, 0), 0.9, 1.0);
+  const auto places = [&](const std::vector<int>& order) {  // of each id
+    std::vector<Grain> stored;
+    for (const int k : order) stored.push_back(grains[static_cast<std::size_t>(k)]);
+    Cloud<2> cloud(stored, 0.1);
+    const Field<int> id = cloud.fields.integer("id");
+    for (int i = 0; i < n; ++i) id(i) = order[static_cast<std::size_t>(i)];
+    CHECK(split(cloud, options) == 26);
+    std::map<int, test::Point> at;
+    const swe::Particles<2> p = cloud.bind();
+    for (int i = 0; i < cloud.fields.size(); ++i) at[p.id(i)] = {p.x.x(i), p.x.y(i)};
+    return at;
+  };
+  const auto straight = places(test::numbers(n));
+  CHECK(straight.size() == 40 + 26 * 6);
+  CHECK(straight.rbegin()->first == 40 + 26 * 6 - 1);
+  for (const unsigned seed : {1u, 2u}) CHECK((places(test::shuffled(test::numbers(n), seed)) == straight));
+}
+
+TEST_CASE("splitting: ids that run out are an error that says so") {
+  constexpr int most = std::numeric_limits<int>::max();
+  int next = most - 10;
+  CHECK(take_ids(next, 10) == most - 10);
+  CHECK(next == most);
+  CHECK_THROWS_WITH(take_ids(next, 1), Catch::Contains("2147483647 particles"));
+  CHECK(next == most);  // none is taken
 }
 
 TEST_CASE("splitting: daughters stay before the walls") {
