@@ -52,7 +52,7 @@ struct FitMoments {
   Field<double> inverse, mean, own2;
 
   KOKKOS_FUNCTION void operator()(int k) const {
-    constexpr int n = addends_of<D>;
+    constexpr int n = terms_of<D>;
     constexpr double lift_per_aside = 20;
     const int s = g.slices(k);
     const Lanes me = g.pairs(s);
@@ -104,7 +104,7 @@ struct Fit {
   Field<double> fitted;
 
   KOKKOS_FUNCTION void operator()(int k) const {
-    constexpr int n = addends_of<D>, fields = 2 * D;
+    constexpr int n = terms_of<D>, fields = 2 * D;
     const int s = g.slices(k);
     const Lanes me = g.pairs(s);
     const Vec<Lane, D> vi = me.load(v), ui = me.load(u);
@@ -181,7 +181,7 @@ struct Trace {
 
   // The polynomial of the particle, lifted by a part of its neighbours' height over it: first = 0 for v, D for u.
   KOKKOS_FUNCTION Vec<double, D> value(const VecField<double, D>& f, int first, int j, const Vec<double, D>& place, double lifted) const {
-    constexpr int n = addends_of<D>;
+    constexpr int n = terms_of<D>;
     double term[n + 1];
     monomials((1.0 / spacing) * (place - at(g.x, j)), term);
     term[n] = lifted;
