@@ -7,13 +7,15 @@
 
 namespace freshet {
 
-void ClusterSet::cut(const Rows& rows) {
+void ClusterSet::cut(const Rows& rows, int later) {
   if (row_start_.extent_int(0) < rows.rows + 1) row_start_ = Field<int>("cellgrid.row_start", static_cast<size_t>(2 * rows.rows + 16));
   const Field<int> row_start = row_start_;
   const Rows r = rows;
   Kokkos::parallel_scan("cellgrid::count_clusters", Range(0, rows.rows + 1), KOKKOS_LAMBDA(int row, int& sum, bool last) {
         if (last) row_start(row) = sum;
-        if (row < r.rows) sum += (r.row_begin(row + 1) - r.row_begin(row) + lanes - 1) / lanes;
+        if (row == r.rows) return;
+        const int held = r.row_begin(row + 1) - r.row_begin(row);
+        sum += held > 0 ? blocks(later + held) : 0;
       });
   Kokkos::deep_copy(size_, Kokkos::subview(row_start_, rows.rows));
   if (first_.extent_int(0) < size_) {
@@ -23,11 +25,11 @@ void ClusterSet::cut(const Rows& rows) {
   }
   const Field<int> first = first_, count = count_;
   Kokkos::parallel_for("cellgrid::cut_clusters", Range(0, rows.rows), KOKKOS_LAMBDA(int row) {
-        const int end = r.row_begin(row + 1);
+        const int begin = r.row_begin(row), end = r.row_begin(row + 1);
         int c = row_start(row);
-        for (int i = r.row_begin(row); i < end; i += lanes, ++c) {
-          first(c) = i;
-          count(c) = smaller(lanes, end - i);
+        for (int i = begin - later; i < end; i += lanes, ++c) {
+          first(c) = larger(i, begin);
+          count(c) = smaller(i + lanes, end) - first(c);
         }
       });
 }

@@ -84,7 +84,8 @@ KOKKOS_FORCEINLINE_FUNCTION Sym<V, 2> broadcast(const SymField<double, 2>& f, in
 // All particles cut into clusters, row by row.
 class ClusterSet {
  public:
-  void cut(const Rows& rows);
+  // later: how many lanes of each row's first cluster stay empty. What each particle gets does not hang on it.
+  void cut(const Rows& rows, int later = 0);
   KOKKOS_FORCEINLINE_FUNCTION int size() const { return size_; }
   KOKKOS_FORCEINLINE_FUNCTION Lanes operator()(int cluster) const { return {first_(cluster), count_(cluster)}; }
 

@@ -27,7 +27,7 @@ struct Graded {
   RowOrder order;
   NeighbourFinder<2> finder;
 
-  explicit Graded(double spacing) : order(2, spacing, wide(spacing)) {
+  explicit Graded(double spacing) : order(2, spacing, test::wide(spacing)) {
     const Scene scene = unit_square(spacing);
     std::vector<test::Point> places;
     for (const auto& p : place_points(scene)) places.push_back({p.x[0], p.x[1]});

@@ -66,10 +66,10 @@ inline std::vector<Point> lattice(int dimension, const Block& b, double dx) {
   return points;
 }
 
-// x, (y), h and id of points, unsorted. ids: empty = in order.
 // A domain for points around the origin: 2000 spacings in each direction.
 inline Box wide(double spacing) { return {-2000 * spacing, 2000 * spacing, -2000 * spacing, 2000 * spacing}; }
 
+// x, (y), h and id of points, unsorted. ids: empty = in order.
 inline FieldSet point_fields(int dimension, const std::vector<Point>& points, std::vector<int> ids = {}) {
   if (ids.empty()) ids = numbers(static_cast<int>(points.size()));
   FieldSet f(static_cast<int>(points.size()));
@@ -156,7 +156,8 @@ class Cloud {
   NeighbourList neighbours;
   std::optional<Walls<D>> walls;
   swe::SingleCopies single;
-  int lists = 0;  // made by the last solve()
+  int lists = 0;      // made by the last solve()
+  int cut_later = 0;  // lanes
   AnyKernel<D> kernel = CubicSpline<D>{};
   double support() const { return std::visit([](const auto& k) { return k.support; }, kernel); }
 
@@ -196,7 +197,7 @@ class Cloud {
   // Sorted, listed by the depths at hand, density solved; lists are made again as long as an h outgrows them.
   swe::DensityReport solve(const swe::DensityOptions& options) {
     order.sort(fields);
-    clusters.cut(order.rows());
+    clusters.cut(order.rows(), cut_later);
     const swe::Particles<D> p = bind();
     for (int i = 0; i < fields.size(); ++i)
       p.h(i) = clamp(swe::smoothing_length<D>(p.kh(i), p.rho(i)), options.bounds.floor * p.h0(i), options.bounds.cap * p.h0(i));

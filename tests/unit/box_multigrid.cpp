@@ -19,11 +19,11 @@ namespace {
 using At = std::function<double(int, int)>;  // of node (i, j)
 
 // A system whose coefficients differ by place; nodes where `dry` have none.
-struct Box {
+struct Boxed {
   BoxMultigrid multigrid;
   BoxGrid grid;
 
-  Box(const BoxGrid& g, const At& mass, const At& dry = [](int, int) { return 0; }) : grid(g) {
+  Boxed(const BoxGrid& g, const At& mass, const At& dry = [](int, int) { return 0; }) : grid(g) {
     multigrid.resize(g);
     const BoxLevel& a = multigrid.finest();
     for (int j = 0; j < g.ny; ++j) {
@@ -93,7 +93,7 @@ TEST_CASE("box multigrid: cycles converge to the dense solution on open and peri
                                 BoxGrid{13, 11, true, true}, BoxGrid{2, 7, true, true}, BoxGrid{5, 1, false, false}, BoxGrid{1, 1, false, false});
   const double mass = GENERATE(0.0, 0.2);
   CAPTURE(grid.nx, grid.ny, grid.wrap_x, grid.wrap_y, mass);
-  Box box(grid, every_third(mass));
+  Boxed box(grid, every_third(mass));
   const Eigen::MatrixXd a = box.matrix();
   Eigen::VectorXd b(box.unknowns()), x = Eigen::VectorXd::Zero(box.unknowns());
   test::Random random(7);
@@ -105,7 +105,7 @@ TEST_CASE("box multigrid: cycles converge to the dense solution on open and peri
 }
 
 TEST_CASE("box multigrid: a periodic cycle is symmetric") {
-  Box box(BoxGrid{9, 14, true, false}, every_third(0.1));
+  Boxed box(BoxGrid{9, 14, true, false}, every_third(0.1));
   const Eigen::MatrixXd b = box.cycles();
   CHECK((b - b.transpose()).norm() <= 1e-13 * b.norm());
 }
@@ -113,7 +113,7 @@ TEST_CASE("box multigrid: a periodic cycle is symmetric") {
 TEST_CASE("box multigrid: the cycle is symmetric and close to the inverse") {
   const auto [nx, ny] = GENERATE(std::pair(16, 16), std::pair(17, 9), std::pair(31, 1), std::pair(50, 3), std::pair(21, 24), std::pair(1, 1));
   const double mass = GENERATE(1e-4, 1e-1, 10.0);
-  Box box(BoxGrid{nx, ny, false, false}, [m = mass](int, int) { return m; });
+  Boxed box(BoxGrid{nx, ny, false, false}, [m = mass](int, int) { return m; });
   const Eigen::MatrixXd b = box.cycles();
   CHECK((b - b.transpose()).norm() < 1e-12 * b.norm());
   const Eigen::VectorXd s = spectrum(b, box.matrix());
@@ -124,7 +124,7 @@ TEST_CASE("box multigrid: the cycle is symmetric and close to the inverse") {
 
 TEST_CASE("box multigrid: the rest is solved around empty nodes") {
   const int nx = 40, ny = 30;
-  Box box(BoxGrid{nx, ny, false, false}, [](int, int) { return 1e-2; },
+  Boxed box(BoxGrid{nx, ny, false, false}, [](int, int) { return 1e-2; },
           [](int i, int j) { return std::abs(i - nx / 3) < nx / 8 && std::abs(j - ny / 2) <= ny / 5; });
   const Eigen::MatrixXd b = box.cycles(), full = box.matrix();
   std::vector<int> wet;

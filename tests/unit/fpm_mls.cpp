@@ -25,13 +25,13 @@ struct Sheet {
   Stencils<2> stencils;
   double dx;
 
-  Sheet(int n, double size, double jitter, unsigned seed = 5) : order(2, size / n, wide(size / n)), dx(size / n) {
+  Sheet(int n, double size, double jitter, unsigned seed = 5) : order(2, size / n, test::wide(size / n)), dx(size / n) {
     auto points = test::lattice(2, {0, n, 0, n}, dx);
     test::Random random(seed);
     for (Point& p : points) p = {p[0] + jitter * dx * random(-1, 1), p[1] + jitter * dx * random(-1, 1)};
     prepare(points);
   }
-  Sheet(const std::vector<Point>& points, double spacing) : order(2, spacing, wide(spacing)), dx(spacing) { prepare(points); }
+  Sheet(const std::vector<Point>& points, double spacing) : order(2, spacing, test::wide(spacing)), dx(spacing) { prepare(points); }
 
   void prepare(const std::vector<Point>& points) {
     fields = test::point_fields(2, points);

@@ -25,7 +25,7 @@ struct Square {
   Edges edges;
   double dx, size;
 
-  Square(int n, double side, Edges e, double jitter = 0.3) : order(2, side / n, wide(side / n)), edges(e), dx(side / n), size(side) {
+  Square(int n, double side, Edges e, double jitter = 0.3) : order(2, side / n, test::wide(side / n)), edges(e), dx(side / n), size(side) {
     test::Random random(3);
     std::vector<Point> points;
     const int last = e == Edges::periodic ? n : n + 1;

@@ -109,7 +109,7 @@ std::vector<bool> flags_by_pairs(const FlowPoints& s, double r) {
   return flagged;
 }
 
-std::vector<Point> block(int nx, int ny) { return test::lattice(2, {0, nx, 0, ny}, dx); }
+std::vector<Point> square_of(int nx, int ny) { return test::lattice(2, {0, nx, 0, ny}, dx); }
 
 // Flags of points that `counts` selects.
 int flagged_where(const FlowPoints& s, const std::vector<bool>& flags, const std::function<bool(const Point&)>& counts) {
@@ -151,8 +151,8 @@ TEST_CASE("voronoi: cells of points in a box of walls fill the box") {
 
 TEST_CASE("voronoi: a point is on the surface iff one of the circles through it and another one is empty") {
   const std::vector<std::vector<Point>> clouds = {
-      test::random_points(2, 250, 0.7, 11), test::random_points(2, 60, 0.7, 12), test::jittered(block(15, 15), 0.3 * dx, 13),
-      test::jittered(block(20, 3), 0.45 * dx, 14), test::jittered(block(30, 1), 0.4 * dx, 15)};
+      test::random_points(2, 250, 0.7, 11), test::random_points(2, 60, 0.7, 12), test::jittered(square_of(15, 15), 0.3 * dx, 13),
+      test::jittered(square_of(20, 3), 0.45 * dx, 14), test::jittered(square_of(30, 1), 0.4 * dx, 15)};
   for (const auto& points : clouds)
     for (const double r : {0.9, 1.3, 1.8}) {
       FlowPoints s(points, dx);
@@ -170,7 +170,7 @@ TEST_CASE("voronoi: lone points, pairs and points on one place are surface") {
 // FPM-FORMULAS section 7 at r = 1.3 dx: 0 % of the bulk flagged, 0 % of the surface missed, all three shapes.
 TEST_CASE("voronoi: nothing in the bulk is flagged, nothing on the surface is missed") {
   for (const unsigned seed : {21u, 22u, 23u, 24u}) {
-    FlowPoints s(test::jittered(block(60, 60), 0.3 * dx, seed), dx);
+    FlowPoints s(test::jittered(square_of(60, 60), 0.3 * dx, seed), dx);
     const auto inside = [](const Point& p) { return p[0] > 2 * dx && p[0] < 58 * dx && p[1] > 2 * dx && p[1] < 58 * dx; };
     CHECK(flagged_where(s, s.flags(), inside) == 0);
   }
@@ -181,7 +181,7 @@ TEST_CASE("voronoi: flat and wavy surfaces, rough by up to a fifth of a spacing,
     double rough, amplitude;
   };
   for (const Shape shape : {Shape{0.1, 0}, Shape{0.2, 0}, Shape{0, 1}}) {
-    auto points = block(80, 12);
+    auto points = square_of(80, 12);
     test::Random random(31);
     for (Point& p : points) {
       const double wave = shape.amplitude * dx * std::sin(2 * std::acos(-1.0) * p[0] / (8 * dx)) * p[1] / (12 * dx);
@@ -211,7 +211,7 @@ TEST_CASE("voronoi: water in a tank has a surface on top only") {
 }
 
 TEST_CASE("voronoi: across the sides of a periodic domain there is no surface") {
-  FlowPoints s(test::jittered(block(12, 12), 0, 0), dx);
+  FlowPoints s(test::jittered(square_of(12, 12), 0, 0), dx);
   s.period = {{0, 0}, {1.2, 1.2}};
   CHECK(flagged_where(s, s.flags(), [](const Point&) { return true; }) == 0);
 }
