@@ -58,9 +58,8 @@ KOKKOS_FORCEINLINE_FUNCTION Lanes block(int b, int n) { return {b * lanes, small
 
 // Zero in lanes beyond the last particle.
 KOKKOS_FORCEINLINE_FUNCTION Lane counted(const Lanes& me, Lane a) {
-  if (me.count == lanes) return a;
-  for (int lane = me.count; lane < lanes; ++lane) set_lane(a, lane, 0.0);
-  return a;
+  const Lane lane = lanes_of<Lane>([](int l) { return static_cast<double>(l); });
+  return select(lane < Lane(static_cast<double>(me.count)), a, Lane(0.0));
 }
 
 // One value in every lane: the neighbour's side of a pair.

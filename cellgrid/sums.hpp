@@ -2,6 +2,8 @@
 // every term is cut at fixed places into integers of 32 bits, and integers are added. What is cut off lies below 2^-64 of the
 // largest term (a double's own rounding is 2^-53 of each).
 #pragma once
+#include <utility>
+
 #include "cellgrid/clusters.hpp"
 
 namespace freshet {
@@ -29,7 +31,10 @@ class IntegerSum {
   static KOKKOS_FORCEINLINE_FUNCTION bool is_finite(double term) { return -unit(highest + 1) < term && term < unit(highest + 1); }
 
   KOKKOS_INLINE_FUNCTION int top() const { return top_; }
-  KOKKOS_FORCEINLINE_FUNCTION void add_units(int part, long long units) { part_[part] += units; }
+  // Multiples of the part's unit, in each lane.
+  KOKKOS_INLINE_FUNCTION void add(int part, Lane multiples) {
+    for_each_lane(multiples * unit(part - top_), [&](int, double units) { part_[part] += static_cast<long long>(units); });
+  }
   KOKKOS_INLINE_FUNCTION void add_not_finite(double term) { odd_ += term < 0 ? -1 / zero() : term > 0 ? 1 / zero() : term; }
 
   // Parts that lie too low for the new place are forgotten, of every term alike.
@@ -66,41 +71,39 @@ class IntegerSum {
   int top_ = lowest;
 };
 
-// The terms of some slices in a row, lane by lane: in doubles, which hold the integers of 2^20 slices exactly. A value, so that
-// it stays in registers.
+// The terms of some slices in a row, lane by lane: in doubles, which hold the integers of 2^20 slices exactly. A value without
+// arrays, of which no address is taken: it stays in registers.
 struct LaneSum {
-  static constexpr int parts = IntegerSum::parts;
-  double limit, shift[parts];
-  Lane part[parts];
+  double limit;  // what terms are smaller than
+  Lane high, middle, low;
 
   static KOKKOS_FORCEINLINE_FUNCTION LaneSum from(int top) {
-    LaneSum sum;
-    sum.limit = IntegerSum::unit(top + 1);
-    for (int k = 0; k < parts; ++k) {
-      sum.shift[k] = 0x1.8p52 * IntegerSum::unit(top - k);
-      sum.part[k] = Lane(0.0);
-    }
-    return sum;
+    return {IntegerSum::unit(top + 1), Lane(0.0), Lane(0.0), Lane(0.0)};
   }
-  KOKKOS_INLINE_FUNCTION void end(IntegerSum& total) const {
-    for (int k = 0; k < parts; ++k)
-      for_each_lane(part[k] * IntegerSum::unit(k - total.top()),
-                    [&](int, double units) { total.add_units(k, static_cast<long long>(units)); });
+  KOKKOS_FORCEINLINE_FUNCTION void end(IntegerSum& total) const {
+    total.add(0, high);
+    total.add(1, middle);
+    total.add(2, low);
   }
 };
 
+// Takes from the term its nearest multiple of 2^-52 2/3 shift, and returns that.
+KOKKOS_FORCEINLINE_FUNCTION Lane taken_from(Lane& term, double shift) {
+  const Lane multiple = (term + shift) - shift;
+  term -= multiple;
+  return multiple;
+}
+
 // |term| < sum.limit
-KOKKOS_FORCEINLINE_FUNCTION LaneSum added(LaneSum sum, Lane term) {
-  for (int k = 0; k < LaneSum::parts; ++k) {
-    const Lane units = (term + sum.shift[k]) - sum.shift[k];  // to the nearest multiple of the part's unit
-    term -= units;
-    sum.part[k] += units;
-  }
-  return sum;
+KOKKOS_FORCEINLINE_FUNCTION LaneSum added(const LaneSum sum, Lane term) {
+  constexpr double per_part = 0x1p-32;
+  const double shift = 0x1.8p52 * per_part * sum.limit;
+  const Lane high = taken_from(term, shift), middle = taken_from(term, per_part * shift);
+  return {sum.limit, sum.high + high, sum.middle + middle, sum.low + taken_from(term, per_part * per_part * shift)};
 }
 
 // Makes room for a term larger than any before; what is not finite goes elsewhere.
-__attribute__((noinline)) KOKKOS_INLINE_FUNCTION LaneSum added_anew(const LaneSum& sum, IntegerSum& total, Lane term) {
+__attribute__((noinline)) KOKKOS_INLINE_FUNCTION LaneSum added_anew(const LaneSum sum, IntegerSum& total, Lane term) {
   sum.end(total);
   Lane finite(0.0);
   for_each_lane(term, [&](int lane, double one) {
@@ -111,11 +114,14 @@ __attribute__((noinline)) KOKKOS_INLINE_FUNCTION LaneSum added_anew(const LaneSu
   return added(LaneSum::from(total.top()), finite);
 }
 
-// The term as a number of its own: a product that is rounded to units at once would leave the rest of a double's.
-KOKKOS_FORCEINLINE_FUNCTION LaneSum added(const LaneSum& sum, IntegerSum& total, Lane term) {
+// The term as a number of its own: a product that is rounded to units at once would leave another rest than a double's.
+KOKKOS_FORCEINLINE_FUNCTION LaneSum added(const LaneSum sum, IntegerSum& total, Lane term) {
   term = rounded(term);
   const Lane limit(sum.limit);
-  if (any(!((-limit < term) & (term < limit)))) return added_anew(sum, total, term);
+  if (any(!((-limit < term) & (term < limit)))) {
+    const LaneSum larger = added_anew(sum, total, term);
+    return {larger.limit, larger.high, larger.middle, larger.low};
+  }
   return added(sum, term);
 }
 
@@ -170,9 +176,11 @@ struct AddendsTogether {
   int n;
   KOKKOS_FORCEINLINE_FUNCTION LaneAddends<K> operator()(int s) const {
     const Lanes me = block(s, n);
-    LaneAddends<K> terms = values(me);
-    for (int k = 0; k < K; ++k) terms[k] = counted(me, terms[k]);
-    return terms;
+    return counted(me, values(me), std::make_integer_sequence<int, K>());
+  }
+  template <int... k>
+  static KOKKOS_FORCEINLINE_FUNCTION LaneAddends<K> counted(const Lanes& me, const LaneAddends<K>& terms, std::integer_sequence<int, k...>) {
+    return {{freshet::counted(me, terms[k])...}};
   }
 };
 template <int K, class Values>
@@ -180,6 +188,30 @@ struct AddendsApart {
   Values values;
   int n;
   KOKKOS_FORCEINLINE_FUNCTION LaneAddends<K> operator()(int s) const { return addends_of<K>(block(s, n), values); }
+};
+
+// K of those.
+template <int K>
+struct LaneSums {
+  LaneSum here;
+  LaneSums<K - 1> rest;
+
+  static KOKKOS_FORCEINLINE_FUNCTION LaneSums from(const IntegerSum* total) {
+    return {LaneSum::from(total->top()), LaneSums<K - 1>::from(total + 1)};
+  }
+  KOKKOS_FORCEINLINE_FUNCTION LaneSums plus(IntegerSum* total, const Lane* term) const {
+    return {added(here, *total, *term), rest.plus(total + 1, term + 1)};
+  }
+  KOKKOS_FORCEINLINE_FUNCTION void end(IntegerSum* total) const {
+    here.end(*total);
+    rest.end(total + 1);
+  }
+};
+template <>
+struct LaneSums<0> {
+  static KOKKOS_FORCEINLINE_FUNCTION LaneSums from(const IntegerSum*) { return {}; }
+  KOKKOS_FORCEINLINE_FUNCTION LaneSums plus(IntegerSum*, const Lane*) const { return {}; }
+  KOKKOS_FORCEINLINE_FUNCTION void end(IntegerSum*) const {}
 };
 
 // A row of slices that one thread sums.
@@ -190,14 +222,13 @@ struct SumOfSlices {
   int slices;
 
   KOKKOS_FUNCTION void operator()(int r, IntegerSums<K>& total) const {
-    LaneSum sum[K];
-    for (int k = 0; k < K; ++k) sum[k] = LaneSum::from(total.of[k].top());
+    LaneSums<K> sum = LaneSums<K>::from(total.of);
     const int end = smaller((r + 1) * row, slices);
     for (int s = r * row; s < end; ++s) {
       const LaneAddends<K> terms = values(s);
-      for (int k = 0; k < K; ++k) sum[k] = added(sum[k], total.of[k], terms[k]);
+      sum = sum.plus(total.of, &terms[0]);
     }
-    for (int k = 0; k < K; ++k) sum[k].end(total.of[k]);
+    sum.end(total.of);
   }
 };
 
