@@ -1,6 +1,8 @@
 // The structure of a table: places, known and missing keys, tables inside. Typed values are in values.cpp.
 #include "src/scene/table.hpp"
 
+#include <toml++/toml.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -51,6 +53,11 @@ Place Table::place_from(const toml::source_region& region) const {
   return {std::stoi(*region.path), static_cast<int>(region.begin.line),
           static_cast<int>(region.begin.column)};
 }
+
+bool Table::has(const std::string& key) const { return table_ && table_->contains(key); }
+bool Table::has_text(const std::string& key) const { return has(key) && table_->get(key)->is_string(); }
+bool Table::has_number(const std::string& key) const { return has(key) && table_->get(key)->is_number(); }
+bool Table::has_table(const std::string& key) const { return has(key) && table_->get(key)->is_table(); }
 
 Place Table::place_of(const std::string& key) const {
   return has(key) ? place_from(table_->get(key)->source()) : place_;
