@@ -22,7 +22,7 @@ void ClusterSet::cut(const Rows& rows) {
     count_ = Field<int>("cellgrid.cluster_count", room);
   }
   const Field<int> first = first_, count = count_;
-  Kokkos::parallel_for("cellgrid::cut_clusters", Range(0, rows.rows), KOKKOS_LAMBDA(int row) {
+  launch("cellgrid::cut_clusters", Range(0, rows.rows), KOKKOS_LAMBDA(int row) {
         const int end = r.row_begin(row + 1);
         int c = row_start(row);
         for (int i = r.row_begin(row); i < end; i += lanes, ++c) {

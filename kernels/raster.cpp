@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cellgrid/launch.hpp"
+
 namespace freshet {
 namespace {
 
@@ -123,7 +125,7 @@ CoverFields cover_cells(const CellGrid& grid, const SortedWater<D>& water) {
   const CoverFields out(grid.size());
   const Blocks blocks = blocks_near<D>(grid, water.rows);
   const SortedWater<D> w = water;
-  Kokkos::parallel_for("raster::cover", Dynamic(0, blocks.count()), KOKKOS_LAMBDA(int k) {
+  launch("raster::cover", Dynamic(0, blocks.count()), KOKKOS_LAMBDA(int k) {
         const Block<D> cells = block_at<D>(grid, blocks, k);
         const Cover<D> sums = gather_water(w, grid, cells);
         cells.store(out.cover, sums.cover);

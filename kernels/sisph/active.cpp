@@ -1,5 +1,7 @@
 #include "kernels/sisph/active.hpp"
 
+#include "cellgrid/launch.hpp"
+
 namespace freshet::sisph {
 
 template <int D>
@@ -23,7 +25,7 @@ void ActiveSlices<D>::find(const Field<double>& depth, int supports) {
         dry += here;
       }, dry_);
   for (int ring = 1; dry_ > 0 && ring <= supports; ++ring)
-    Kokkos::parallel_for("sisph::spread", Range(0, pairs.slices()), KOKKOS_LAMBDA(int s) {
+    launch("sisph::spread", Range(0, pairs.slices()), KOKKOS_LAMBDA(int s) {
           if (near(s) != ring) return;
           pairs.for_each(s, [&](int, PairIndex j) {
             for (int l = 0; l < lanes; ++l) {

@@ -1,5 +1,7 @@
 #include "kernels/sisph/mass_flux.hpp"
 
+#include "cellgrid/launch.hpp"
+
 namespace freshet::sisph {
 namespace {
 
@@ -152,14 +154,14 @@ double MassFlux<D>::least_depth(const SliceList& active, const Water<D>& water, 
 
 template <int D>
 void MassFlux<D>::scale_outflow(const SliceList& active, const FreeSurface<D>& surface) {
-  Kokkos::parallel_for("sisph::scale_outflow", Range(0, active.count), ScaleOutflow<D>{g_, active, surface.flux(), share_});
+  launch("sisph::scale_outflow", Range(0, active.count), ScaleOutflow<D>{g_, active, surface.flux(), share_});
 }
 
 template <int D>
 FluxReport MassFlux<D>::close_depths(const SliceList& active, const Water<D>& water, const FreeSurface<D>& surface, double dt) {
   std::visit([&](const auto& a) {
     const Fluxes<D, std::decay_t<decltype(a)>> pass{g_, active, a, surface.level(), surface.flux(), 1 / dt};
-    Kokkos::parallel_for("sisph::fluxes", Range(0, active.count), pass);
+    launch("sisph::fluxes", Range(0, active.count), pass);
   }, surface.pairs());
   FluxReport report;
   report.limited = least_depth(active, water, surface, dt) < 0;
@@ -186,8 +188,8 @@ FluxReport MassFlux<D>::close_depths(const SliceList& active, const Water<D>& wa
 template <int D>
 void MassFlux<D>::advect(const SliceList& active, const Water<D>& water, const FreeSurface<D>& surface,
                          const VelocityGradient<D>& gradient, double dt, const VecField<double, D>& advected) {
-  Kokkos::parallel_for("sisph::advect", Range(0, active.count),
-                       Advect<D>{g_, active, water, gradient, surface.flux(), surface.depth(), slope_share_, dt, advected});
+  launch("sisph::advect", Range(0, active.count),
+         Advect<D>{g_, active, water, gradient, surface.flux(), surface.depth(), slope_share_, dt, advected});
 }
 
 template class MassFlux<1>;

@@ -1,4 +1,5 @@
 // Refinement: splitting.
+#include "cellgrid/launch.hpp"
 #include "kernels/swe/refinement.hpp"
 
 namespace freshet::swe {
@@ -54,7 +55,7 @@ int Refinement<D>::split(FieldSet& particles, const Bind& bind, const Field<int>
   if (parents == 0 || n + parents * more > split_->most_particles) return 0;
   reserve(copy_of_, "split.copy_of", parents * more);
   const Field<int> copy_of = copy_of_;
-  Kokkos::parallel_for("split::copies", Range(0, parents * more), KOKKOS_LAMBDA(int k) { copy_of(k) = parent(k / more); });
+  launch("split::copies", Range(0, parents * more), KOKKOS_LAMBDA(int k) { copy_of(k) = parent(k / more); });
   particles.append_copies(copy_of, parents * more);
   place_daughters(bind(), parents, n, next_id, walls);
   next_id += parents * more;
@@ -73,7 +74,7 @@ void Refinement<D>::place_daughters(const Particles<D>& p, int parents, int firs
   const double alpha = split_->alpha;
   const bool linear = split_->linear;
   const double longest = relax_.longest;
-  Kokkos::parallel_for("split::place", Range(0, parents * daughters), KOKKOS_LAMBDA(int q) {
+  launch("split::place", Range(0, parents * daughters), KOKKOS_LAMBDA(int q) {
         const int k = q / parents, s = q % parents;  // neighbours in memory belong to different parents
         const int copy = s * (daughters - 1) + k - 1, i = k == 0 ? parent(s) : first + copy;
         const Vec<double, D> from = at(p.x, i), to = walls.inside(from + p.h(i) * at(offset, k));

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "cellgrid/launch.hpp"
 #include "src/fpm/place.hpp"
 #include "src/fpm/solver.hpp"
 
@@ -94,7 +95,7 @@ void Solver::place() {
   Kokkos::deep_copy(points_.real("h"), scene_.fpm->support * scene_.water.spacing);
   if (grading_) grading_->size(points_);
   const Field<int> id = points_.integer("id");
-  Kokkos::parallel_for("fpm::number", Range(0, points_.size()), KOKKOS_LAMBDA(int i) { id(i) = i; });
+  launch("fpm::number", Range(0, points_.size()), KOKKOS_LAMBDA(int i) { id(i) = i; });
   next_id_ = points_.size();
   seat_on_walls();
 }
@@ -105,7 +106,7 @@ void Solver::seat_on_walls() {
   const Field<int> kind = points_.integer("kind"), side = points_.integer("side");
   const TankView tank = tank_.view();
   const double near = touching * scene_.water.spacing;  // where the spacing varies, that of the finest
-  Kokkos::parallel_for("fpm::seat", Range(0, points_.size()), KOKKOS_LAMBDA(int i) {
+  launch("fpm::seat", Range(0, points_.size()), KOKKOS_LAMBDA(int i) {
         const Footing f = tank.nearest(at(x, i), near);
         kind(i) = in_fluid;
         side(i) = -1;

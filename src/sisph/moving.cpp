@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "cellgrid/launch.hpp"
 #include "src/errors.hpp"
 #include "src/sisph/solver.hpp"
 
@@ -64,7 +65,7 @@ void Solver<D>::find_friction(double dt) {
     const NearestTable ground = ground_;
     const VecField<double, D> x = swarm().x;
     const Field<double> g_n2 = g_n2_;
-    Kokkos::parallel_for("sisph::ground", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) { g_n2(i) = ground.at(at(x, i)); });
+    launch("sisph::ground", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) { g_n2(i) = ground.at(at(x, i)); });
   }
   find_drag<D>(particles_.size(), water(), g_n2_, dt, drag_);
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cellgrid/launch.hpp"
 #include "src/errors.hpp"
 #include "src/scene/names.hpp"
 #include "src/scene/open_law.hpp"
@@ -190,7 +191,7 @@ void Solver<D>::build_geometry() {
   if (scene_.sisph.closure && scene_.sisph.formulation == Sisph::Formulation::at_rest) closure_ = close_areas(geometry_);
   level_of_bed_ = bed_ ? particles_.real("bed") : Field<double>("sisph.flat_bed", static_cast<std::size_t>(n) + lanes);
   const Field<double> mass = particles_.real("mass"), depth = particles_.real("depth"), omega = geometry_.omega;
-  Kokkos::parallel_for("sisph::fill", Range(0, n), KOKKOS_LAMBDA(int i) { mass(i) = omega(i) * depth(i); });
+  launch("sisph::fill", Range(0, n), KOKKOS_LAMBDA(int i) { mass(i) = omega(i) * depth(i); });
 }
 
 template <int D>

@@ -1,6 +1,7 @@
 // From a scene to the solver's state: bed, walls, boundaries, particles, reference density.
 #include <cmath>
 
+#include "cellgrid/launch.hpp"
 #include "src/errors.hpp"
 #include "src/scene/place.hpp"
 #include "src/swe/relax.hpp"
@@ -82,7 +83,7 @@ void Solver<D>::place_particles() {
   fill(p.h0, [](const Placed& q) { return q.h0; });
   fill(p.kh, [](const Placed& q) { return q.depth * power<D>(q.h0); });
   const Field<int> id = p.id;
-  Kokkos::parallel_for("swe::number", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) { id(i) = i; });
+  launch("swe::number", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) { id(i) = i; });
   next_id_ = particles_.size();
 }
 
