@@ -48,11 +48,11 @@ void FreeSurface<D>::hold_depths(const Water<D>& water, bool drying) {
 }
 
 template <int D>
-template <bool drying, bool dragged>
+template <bool drying>
 AnyPairs<D> FreeSurface<D>::recomputed(const Water<D>& water, double stiffness) const {
-  const Holdings<drying, dragged> held{held_depth_, held_last_, water.bed, drag_};
+  const Holdings<drying> held{held_depth_, held_last_, water.bed, drag_, drag_.extent(0) > 0};
   return std::visit([&](const auto& kernel) -> AnyPairs<D> {
-    return RecomputedPairs<D, std::decay_t<decltype(kernel)>, drying, dragged>{kernel, places_, held, stiffness};
+    return RecomputedPairs<D, std::decay_t<decltype(kernel)>, drying>{kernel, places_, held, stiffness};
   }, *kernel_);
 }
 
@@ -86,20 +86,20 @@ void FreeSurface<D>::start(const Water<D>& water) {
 }
 
 template <int D>
-template <bool drying, bool dragged>
+template <bool drying>
 typename FreeSurface<D>::Norms FreeSurface<D>::find_coefficients(const SliceList& active, const Water<D>& water,
                                                                  const VecField<double, D>& before, double dt) {
   const double stiffness = options_.gravity * options_.theta * options_.theta * dt * dt;
   g_.images.fill(before);
   const auto visit = [&](const auto& stored, const Field<double>& a) {
-    const Coefficients<D, drying, dragged, std::decay_t<decltype(stored)>::value> pass{
-        g_,    active,    water,  before, depth_,    level_, drag_,           a, flux_,
-        right_, residual_, row_sum_, share_, stiffness, dt,     options_.gravity};
+    const Coefficients<D, drying, std::decay_t<decltype(stored)>::value> pass{
+        g_,     active,    water,    before, depth_,     level_, drag_,            a, flux_,
+        right_, residual_, row_sum_, share_, stiffness, dt,     options_.gravity, drag_.extent(0) > 0};
     return sums_.sum<3>("sisph::coefficients", active.count, pass);
   };
   if (kernel_) {
     hold_depths(water, drying);
-    pairs_ = recomputed<drying, dragged>(water, stiffness);
+    pairs_ = recomputed<drying>(water, stiffness);
   }
   const auto sums = kernel_ ? visit(std::false_type{}, {}) : visit(std::true_type{}, std::get<linear::StoredPairs>(pairs_).a);
   if (!drying || sums[2] == 0) return {std::sqrt(sums[0]), std::sqrt(sums[1])};
@@ -184,11 +184,7 @@ template <int D>
 SurfaceReport FreeSurface<D>::solve(const SliceList& active, const Water<D>& water, const VecField<double, D>& before, double dt,
                                     bool drying) {
   const Region region("sisph::free_surface");
-  const bool dragged = drag_.extent(0) > 0;
-  const Norms norms = drying ? dragged ? find_coefficients<true, true>(active, water, before, dt)
-                                       : find_coefficients<true, false>(active, water, before, dt)
-                      : dragged ? find_coefficients<false, true>(active, water, before, dt)
-                                : find_coefficients<false, false>(active, water, before, dt);
+  const Norms norms = drying ? find_coefficients<true>(active, water, before, dt) : find_coefficients<false>(active, water, before, dt);
   // Asked for no less than round-off of |b|: water at rest needs no iteration.
   constexpr double round_off = 1e-14;
   const double least = round_off / smaller(options_.cg_tolerance, options_.newton_tolerance);
