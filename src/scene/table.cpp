@@ -24,6 +24,9 @@ std::string rounded(double number) {
   return text;
 }
 
+template class Value<double>;
+template class Value<int>;
+
 Table::Table(Context& context, toml::table* table, std::string path, Place place)
     : context_(context), table_(table), path_(std::move(path)), place_(place) {}
 

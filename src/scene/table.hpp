@@ -82,6 +82,9 @@ class Value {
   std::optional<T> value_;
 };
 
+extern template class Value<double>;  // table.cpp
+extern template class Value<int>;
+
 class Table {
  public:
   Table(Context& context, toml::table* table, std::string path, Place place);

@@ -25,6 +25,9 @@ Solver<D>::Solver(const Scene& scene)
 }
 
 template <int D>
+Solver<D>::~Solver() = default;
+
+template <int D>
 void Solver<D>::step(double t, double dt) {
   if (moving_) return move_with_water(t, dt);
   active_->find(water().depth, scene_.sisph.picard);
