@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cellgrid/assign.hpp"
 #include "cellgrid/launch.hpp"
 
 namespace freshet {
@@ -140,8 +141,8 @@ Maxima::Maxima(int cells, double wet_depth)
     : wet(wet_depth), depth("raster.max_depth", static_cast<size_t>(cells)), speed("raster.max_speed", static_cast<size_t>(cells)),
       depth_speed("raster.max_depth_speed", static_cast<size_t>(cells)), arrival("raster.arrival", static_cast<size_t>(cells)),
       last_wet("raster.last_wet", static_cast<size_t>(cells)) {
-  Kokkos::deep_copy(arrival, -1.0);
-  Kokkos::deep_copy(last_wet, -1.0);
+  assign(arrival, -1.0);
+  assign(last_wet, -1.0);
 }
 
 namespace {

@@ -1,5 +1,6 @@
 #include "kernels/sisph/mass_flux.hpp"
 
+#include "cellgrid/assign.hpp"
 #include "cellgrid/launch.hpp"
 
 namespace freshet::sisph {
@@ -140,8 +141,8 @@ template <int D>
 MassFlux<D>::MassFlux(const Geometry<D>& g)
     : g_(g), share_("sisph.share", static_cast<size_t>(g.pairs.particles) + lanes),
       slope_share_("sisph.slope_share", static_cast<size_t>(g.pairs.particles) + lanes) {
-  Kokkos::deep_copy(share_, 1.0);
-  Kokkos::deep_copy(slope_share_, 1.0);
+  assign(share_, 1.0);
+  assign(slope_share_, 1.0);
 }
 
 template <int D>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cellgrid/assign.hpp"
 #include "cellgrid/launch.hpp"
 #include "kernels/sisph/moving_loops.hpp"
 
@@ -46,7 +47,7 @@ MovingWater<D>::MovingWater(int particles, const AnyKernel<D>& kernel, const Mir
   const Field<int> all("sisph.slices", static_cast<size_t>((particles + lanes - 1) / lanes));
   const auto host = Kokkos::create_mirror_view(all);
   for (int s = 0; s < all.extent_int(0); ++s) host(s) = s;
-  Kokkos::deep_copy(all, host);
+  assign(all, host);
   g_.slices = {all, all.extent_int(0)};
   cg_.resize(particles);
 }

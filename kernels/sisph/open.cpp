@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cellgrid/assign.hpp"
 #include "cellgrid/launch.hpp"
 #include "kernels/sisph/open_fit.hpp"
 
@@ -71,7 +72,7 @@ template <class T>
 void copy_in(const std::vector<T>& values, const Field<T>& field) {
   const auto host = Kokkos::create_mirror_view(field);
   for (std::size_t k = 0; k < values.size(); ++k) host(k) = values[k];
-  Kokkos::deep_copy(field, host);
+  assign(field, host);
 }
 
 // m, what the surface falls by friction between the line and a place behind it, outwards; no more than a fifth of the depth.

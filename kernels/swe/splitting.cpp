@@ -1,4 +1,5 @@
 // Refinement: splitting.
+#include "cellgrid/assign.hpp"
 #include "cellgrid/launch.hpp"
 #include "kernels/swe/refinement.hpp"
 
@@ -28,7 +29,7 @@ void Refinement<D>::lay_pattern() {
   const auto fill = [&](Field<double>& field, const auto& value) {
     auto host = Kokkos::create_mirror_view(field);
     for (size_t k = 0; k < daughters.size(); ++k) host(k) = value(daughters[k]);
-    Kokkos::deep_copy(field, host);
+    assign(field, host);
   };
   fill(share_, [](const Daughter& d) { return d.share; });
   for (int axis = 0; axis < D; ++axis) {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "cellgrid/assign.hpp"
 #include "cellgrid/launch.hpp"
 #include "src/fpm/place.hpp"
 #include "src/fpm/solver.hpp"
@@ -86,13 +87,13 @@ void Solver::place() {
     const auto field = points_.real(name);
     const auto host = Kokkos::create_mirror_view(field);
     for (std::size_t i = 0; i < start.size(); ++i) host(i) = value_of(start[i]);
-    Kokkos::deep_copy(field, host);
+    assign(field, host);
   };
   fill("x", [](const StartPoint& s) { return s.x[0]; });
   fill("y", [](const StartPoint& s) { return s.x[1]; });
   for (const char* name : {"u", "u_old"}) fill(name, [](const StartPoint& s) { return s.velocity[0]; });
   for (const char* name : {"v", "v_old"}) fill(name, [](const StartPoint& s) { return s.velocity[1]; });
-  Kokkos::deep_copy(points_.real("h"), scene_.fpm->support * scene_.water.spacing);
+  assign(points_.real("h"), scene_.fpm->support * scene_.water.spacing);
   if (grading_) grading_->size(points_);
   const Field<int> id = points_.integer("id");
   launch("fpm::number", Range(0, points_.size()), KOKKOS_LAMBDA(int i) { id(i) = i; });

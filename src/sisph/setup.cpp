@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cellgrid/assign.hpp"
 #include "cellgrid/launch.hpp"
 #include "src/errors.hpp"
 #include "src/scene/names.hpp"
@@ -62,7 +63,7 @@ template <class F>
 void set_field(const Field<double>& field, const std::vector<Start>& start, const F& value) {
   auto host = Kokkos::create_mirror_view(field);
   for (std::size_t i = 0; i < start.size(); ++i) host(i) = value(start[i]);
-  Kokkos::deep_copy(field, host);
+  assign(field, host);
 }
 
 template <int D>
@@ -170,8 +171,8 @@ void Solver<D>::fill_fields(const std::vector<Start>& start) {
   if (bed_) fill("bed", [](const Start& s) { return s.bed; });
   const auto id = Kokkos::create_mirror_view(particles_.integer("id")), kind = Kokkos::create_mirror_view(particles_.integer("kind"));
   for (std::size_t i = 0; i < start.size(); ++i) id(i) = static_cast<int>(i), kind(i) = start[i].held ? 1 : 0;
-  Kokkos::deep_copy(particles_.integer("id"), id);
-  Kokkos::deep_copy(particles_.integer("kind"), kind);
+  assign(particles_.integer("id"), id);
+  assign(particles_.integer("kind"), kind);
 }
 
 template <int D>
@@ -239,7 +240,7 @@ void Solver<D>::build_friction() {
     const double n = manning.map ? manning.map(p[0], p[1]) : manning.n;
     host(i) = scene_.gravity * n * n;
   });
-  Kokkos::deep_copy(g_n2_, host);
+  assign(g_n2_, host);
   drag_ = surface_->make_drag();
 }
 

@@ -1,6 +1,7 @@
 // From a scene to the solver's state: bed, walls, boundaries, particles, reference density.
 #include <cmath>
 
+#include "cellgrid/assign.hpp"
 #include "cellgrid/launch.hpp"
 #include "src/errors.hpp"
 #include "src/scene/place.hpp"
@@ -23,7 +24,7 @@ template <class F>
 void set_field(const Field<double>& field, const std::vector<Placed>& particles, const F& value) {
   auto host = Kokkos::create_mirror_view(field);
   for (size_t i = 0; i < particles.size(); ++i) host(i) = value(particles[i]);
-  Kokkos::deep_copy(field, host);
+  assign(field, host);
 }
 
 }  // namespace
