@@ -55,6 +55,8 @@ Solver::Solver(const Scene& scene)
   keeper_.start(totals().mass);
 }
 
+Solver::~Solver() = default;
+
 void Solver::make_fields() {
   for (const char* name : {"x", "y"}) points_.real(name, "m", Carry::state);
   for (const char* name : {"u", "v", "u_old", "v_old"}) points_.real(name, "m/s", Carry::state);
