@@ -155,10 +155,10 @@ void Walls<D>::reflect(const ClusterSet& clusters, const VecField<double, D>& x,
             const WallSegment s = walls.segments(segment);
             const Vec<double, D> normal = normal_of<D>(s);
             put(x, i, at(x, i) + (-2 * side_of(s, at(x, i)).inside) * normal);
-            const VecField<double, D> velocities[2] = {v, v_pred};
-            for (const VecField<double, D>& velocity : velocities) {
-              const double outward = smaller(dot(at(velocity, i), normal), 0.0);
-              put(velocity, i, at(velocity, i) + (-2 * outward) * normal);
+            const VecField<double, D>* const velocities[2] = {&v, &v_pred};  // not copies: those are counted
+            for (const auto* velocity : velocities) {
+              const double outward = smaller(dot(at(*velocity, i), normal), 0.0);
+              put(*velocity, i, at(*velocity, i) + (-2 * outward) * normal);
             }
           }
       });

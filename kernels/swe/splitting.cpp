@@ -80,9 +80,9 @@ void Refinement<D>::place_daughters(const Particles<D>& p, int parents, int firs
         const int copy = s * (daughters - 1) + k - 1, i = k == 0 ? parent(s) : first + copy;
         const Vec<double, D> from = at(p.x, i), to = walls.inside(from + p.h(i) * at(offset, k));
         put(p.x, i, to);
-        const VecField<double, D> velocities[2] = {p.v, p.v_pred};
+        const VecField<double, D>* const velocities[2] = {&p.v, &p.v_pred};  // not copies: those are counted
         if (linear)
-          for (const VecField<double, D>& v : velocities) put(v, i, at(v, i) + stretched(p.strain, parent(s), to - from));
+          for (const auto* v : velocities) put(*v, i, at(*v, i) + stretched(p.strain, parent(s), to - from));
         p.m(i) *= share(k);
         p.h(i) *= alpha;
         p.h0(i) = smaller(p.h(i), larger(p.h0(i), longest));
