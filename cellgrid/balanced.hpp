@@ -1,11 +1,11 @@
 // A range whose parts go to whichever thread is free: pair passes take longer where water is dense or walls are near, and threads
 // on a shared machine are not equally fast. Every index writes its own results, so that who does what changes none of them.
 #pragma once
-#include "cellgrid/types.hpp"
+#include "cellgrid/launch.hpp"
 
 namespace freshet {
 
-using BalancedRange = Kokkos::RangePolicy<Exec, Kokkos::Schedule<Kokkos::Dynamic>>;
+using BalancedRange = DynamicRange;
 
 // clusters: at least so many that fetching a part costs nothing beside it (some 10 us).
 inline BalancedRange balanced(int clusters) {

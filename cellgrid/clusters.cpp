@@ -24,7 +24,7 @@ void ClusterSet::cut(const Rows& rows, int later) {
     count_ = Field<int>("cellgrid.cluster_count", room);
   }
   const Field<int> first = first_, count = count_;
-  Kokkos::parallel_for("cellgrid::cut_clusters", Range(0, rows.rows), KOKKOS_LAMBDA(int row) {
+  launch("cellgrid::cut_clusters", Range(0, rows.rows), KOKKOS_LAMBDA(int row) {
         const int begin = r.row_begin(row), end = r.row_begin(row + 1);
         int c = row_start(row);
         for (int i = begin - later; i < end; i += lanes, ++c) {

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <stdexcept>
 
+#include "cellgrid/launch.hpp"
+
 namespace freshet {
 namespace {
 
@@ -64,7 +66,7 @@ void permute_all(std::vector<NamedField<T>>& fields, Field<T>& spare, const Inpu
   for (NamedField<T>& f : fields) {
     if (!is_sorted(f.carry)) continue;
     const Field<T> from = f.data, to = spare;
-    Kokkos::parallel_for("cellgrid::permute", Range(0, size), KOKKOS_LAMBDA(int i) { to(i) = from(order(i)); });
+    launch("cellgrid::permute", Range(0, size), KOKKOS_LAMBDA(int i) { to(i) = from(order(i)); });
     std::swap(f.data, spare);
   }
 }
@@ -74,7 +76,7 @@ void copy_all(const std::vector<NamedField<T>>& fields, const Input<int>& from, 
   for (const NamedField<T>& f : fields) {
     if (!is_sorted(f.carry)) continue;
     const Field<T> data = f.data;
-    Kokkos::parallel_for("cellgrid::copy", Range(0, count), KOKKOS_LAMBDA(int k) { data(first + k) = data(from(k)); });
+    launch("cellgrid::copy", Range(0, count), KOKKOS_LAMBDA(int k) { data(first + k) = data(from(k)); });
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cellgrid/clusters.hpp"
+#include "cellgrid/launch.hpp"
 #include "cellgrid/runtime.hpp"
 
 namespace freshet {
@@ -192,7 +193,7 @@ int RowOrder::keep_blocks(const FieldSet& particles) {
   reserve(key_, "cellgrid.key", n);
   const Field<int> key = key_, mark = mark_, block = rows_.block;
   const Keys keys{rows_, x_, y_, id_, dimension_ == 2};
-  Kokkos::parallel_for("cellgrid::mark", Range(0, (n + lanes - 1) / lanes), KOKKOS_LAMBDA(int b) {
+  launch("cellgrid::mark", Range(0, (n + lanes - 1) / lanes), KOKKOS_LAMBDA(int b) {
         const Lanes me{b * lanes, smaller(lanes, n - b * lanes)};
         for_each_lane(keys(me), [&](int lane, int k) {
           if (lane >= me.count) return;
@@ -218,11 +219,11 @@ void RowOrder::count_bins(const FieldSet& particles, int cells) {
   reserve(slot_, "cellgrid.slot", n);
   const Field<int> start = rows_.start;
   const Count count{key_, slot_, start, rows_.block, cells};
-  Kokkos::parallel_for("cellgrid::clear", Range(0, tables * stride), KOKKOS_LAMBDA(int c) { start(c) = 0; });
+  launch("cellgrid::clear", Range(0, tables * stride), KOKKOS_LAMBDA(int c) { start(c) = 0; });
   if (shared)
-    Kokkos::parallel_for("cellgrid::count", Range(0, n), KOKKOS_LAMBDA(int i) { count.shared(i); });
+    launch("cellgrid::count", Range(0, n), KOKKOS_LAMBDA(int i) { count.shared(i); });
   else
-    Kokkos::parallel_for("cellgrid::count", Range(0, tables), KOKKOS_LAMBDA(int t) {
+    launch("cellgrid::count", Range(0, tables), KOKKOS_LAMBDA(int t) {
           const long per = (static_cast<long>(n) + tables - 1) / tables, end = smaller((t + 1) * per, static_cast<long>(n));
           for (long i = t * per; i < end; ++i) count.alone(static_cast<int>(i), t * stride);
         });
@@ -233,8 +234,8 @@ void RowOrder::place(const FieldSet& particles, int cells) {
   const int n = particles.size();
   reserve(order_, "cellgrid.order", n);
   const Field<int> key = key_, slot = slot_, start = rows_.start, order = order_, id = id_;
-  Kokkos::parallel_for("cellgrid::place", Range(0, n), KOKKOS_LAMBDA(int i) { order(start(key(i)) + slot(i)) = i; });
-  Kokkos::parallel_for("cellgrid::settle", Range(0, cells), KOKKOS_LAMBDA(int c) {
+  launch("cellgrid::place", Range(0, n), KOKKOS_LAMBDA(int i) { order(start(key(i)) + slot(i)) = i; });
+  launch("cellgrid::settle", Range(0, cells), KOKKOS_LAMBDA(int c) {
         const int first = start(c), in_bin = start(c + 1) - first;
         if (in_bin > 1) sort_by_id(&order(first), in_bin, id.data());
       });
@@ -280,7 +281,7 @@ void RowOrder::measure_reach(const FieldSet& particles, const Field<double>& h, 
   reserve(rows_.reach, "cellgrid.reach", tiles);
   const Rows rows = rows_;
   const Field<double> tile_h = tile_h_;
-  Kokkos::parallel_for("cellgrid::tile_h", Range(0, tiles), KOKKOS_LAMBDA(int t) {
+  launch("cellgrid::tile_h", Range(0, tiles), KOKKOS_LAMBDA(int t) {
         const int ty = t / rows.tiles_x, tx = t % rows.tiles_x;
         const int b0 = tx * rows.tile_bins, b1 = smaller(b0 + rows.tile_bins, rows.bins);
         double m = 0;
@@ -289,7 +290,7 @@ void RowOrder::measure_reach(const FieldSet& particles, const Field<double>& h, 
             for (int i = rows.begin(r, b0); i < rows.end(r, b1 - 1); ++i) m = larger(m, h(i));
         tile_h(t) = m;
       });
-  Kokkos::parallel_for("cellgrid::reach", Range(0, tiles), KOKKOS_LAMBDA(int t) {
+  launch("cellgrid::reach", Range(0, tiles), KOKKOS_LAMBDA(int t) {
         const int ty = t / rows.tiles_x, tx = t % rows.tiles_x;
         double m = 0;
         for (int y = larger(ty - 1, 0); y <= smaller(ty + 1, rows.tiles_y - 1); ++y)

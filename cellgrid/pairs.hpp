@@ -3,6 +3,7 @@
 // Short rows are padded with the particle itself: x_j - x_i = 0, so whatever vanishes with the distance needs no mask.
 #pragma once
 #include "cellgrid/clusters.hpp"
+#include "cellgrid/launch.hpp"
 
 namespace freshet {
 
@@ -159,7 +160,7 @@ template <class Visit>
 int place_slices(const PairView& view, const Visit& visit) {
   const int slices = view.slices();
   const Field<int> start = view.start;
-  Kokkos::parallel_for("cellgrid::count_pairs", Range(0, slices), KOKKOS_LAMBDA(int s) {
+  launch("cellgrid::count_pairs", Range(0, slices), KOKKOS_LAMBDA(int s) {
         const Lanes me = view(s);
         int longest = 0;
         for (int l = 0; l < me.count; ++l) {
@@ -181,7 +182,7 @@ int place_slices(const PairView& view, const Visit& visit) {
 
 template <class Visit>
 void fill_pairs(const PairView& view, const Visit& visit) {
-  Kokkos::parallel_for("cellgrid::fill_pairs", Range(0, view.slices()), KOKKOS_LAMBDA(int s) {
+  launch("cellgrid::fill_pairs", Range(0, view.slices()), KOKKOS_LAMBDA(int s) {
         const Lanes me = view(s);
         for (int l = 0; l < lanes; ++l) {
           const int i = me.particle(l);

@@ -232,13 +232,36 @@ struct SumOfSlices {
   }
 };
 
+#ifdef FRESHET_DEVICE
+template <int K, class Pass>
+IntegerSums<K> sum_of_rows(const char* label, int rows, const Pass& pass) {
+  IntegerSums<K> total;
+  Kokkos::parallel_reduce(label, Range(0, rows), pass, JoinedSums<K>{&total});
+  return total;
+}
+#else
+// A row's sum without its type: Kokkos' machinery is compiled once for each K (1 ... 4).
+template <int K>
+struct AnyRow {
+  void (*add)(const void* pass, int row, IntegerSums<K>& total);
+  const void* pass;
+};
+template <int K>
+IntegerSums<K> sum_of_any_rows(const char* label, int rows, const AnyRow<K>& row);
+
+template <int K, class Pass>
+IntegerSums<K> sum_of_rows(const char* label, int rows, const Pass& pass) {
+  const auto add = [](const void* of, int row, IntegerSums<K>& total) { (*static_cast<const Pass*>(of))(row, total); };
+  return sum_of_any_rows<K>(label, rows, {add, &pass});
+}
+#endif
+
 // values(s) returns the LaneAddends<K> of slice s, zero in lanes that do not count (see counted). What it writes on the way makes one
 // fused pass. Waits for the result.
 template <int K, class Values>
 Addends<K> sum_of_slices(const char* label, int slices, const Values& values) {
   using Pass = SumOfSlices<K, Values>;
-  IntegerSums<K> total;
-  Kokkos::parallel_reduce(label, Range(0, (slices + Pass::row - 1) / Pass::row), Pass{values, slices}, JoinedSums<K>{&total});
+  const IntegerSums<K> total = sum_of_rows<K>(label, (slices + Pass::row - 1) / Pass::row, Pass{values, slices});
   Addends<K> result;
   for (int k = 0; k < K; ++k) result[k] = total.of[k].value();
   return result;

@@ -3,6 +3,7 @@
 #include <Kokkos_Core.hpp>
 
 #include <string>
+#include <type_traits>
 
 namespace freshet {
 
@@ -21,8 +22,21 @@ using Memory = Exec::memory_space;
 #endif
 using Range = Kokkos::RangePolicy<Exec>;
 
+// One value per particle: a view whose allocation is compiled once, not in every source that makes one.
 template <class T>
-using Field = Kokkos::View<T*, Memory>;  // one value per particle
+class Field : public Kokkos::View<T*, Memory> {
+ public:
+  using View = Kokkos::View<T*, Memory>;
+
+  Field() = default;
+  Field(const std::string& label, size_t values);  // zeros
+  explicit Field(const std::string& label) : Field(label, 0) {}
+  // Kokkos::ViewAllocateWithoutInitializing(label)
+  template <class Allocation, class = std::enable_if_t<!std::is_convertible_v<Allocation, std::string>>>
+  Field(const Allocation& allocation, size_t values) : View(allocation, values) {}
+  template <class... Traits>
+  KOKKOS_FUNCTION Field(const Kokkos::View<Traits...>& other) : View(other) {}
+};
 template <class T>
 using Input = Kokkos::View<const T*, Memory>;
 

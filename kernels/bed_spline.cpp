@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "cellgrid/assign.hpp"
+
 namespace freshet {
 namespace {
 
@@ -82,7 +84,7 @@ BedSpline<D>::BedSpline(const std::function<double(double, double)>& level, cons
   level_ = Field<double>(Kokkos::ViewAllocateWithoutInitializing("bed.level"), values.size());
   auto host = Kokkos::create_mirror_view(level_);
   std::copy(values.begin(), values.end(), host.data());
-  Kokkos::deep_copy(level_, host);
+  assign(level_, host);
 }
 
 template class BedSpline<1>;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cellgrid/assign.hpp"
+
 namespace freshet {
 
 NearestTable::NearestTable(const std::function<double(double, double)>& value, const Lattice& lattice)
@@ -19,7 +21,7 @@ NearestTable::NearestTable(const std::function<double(double, double)>& value, c
   auto host = Kokkos::create_mirror_view(value_);
   for (int j = 0; j < ny_; ++j)
     for (int i = 0; i < nx_; ++i) host(j * nx_ + i) = value(x0_ + i * lattice.step[0], y0_ + j * lattice.step[1]);
-  Kokkos::deep_copy(value_, host);
+  assign(value_, host);
 }
 
 }  // namespace freshet

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cellgrid/assign.hpp"
+#include "cellgrid/launch.hpp"
+
 namespace freshet {
 namespace {
 
@@ -123,7 +126,7 @@ CoverFields cover_cells(const CellGrid& grid, const SortedWater<D>& water) {
   const CoverFields out(grid.size());
   const Blocks blocks = blocks_near<D>(grid, water.rows);
   const SortedWater<D> w = water;
-  Kokkos::parallel_for("raster::cover", Dynamic(0, blocks.count()), KOKKOS_LAMBDA(int k) {
+  launch("raster::cover", Dynamic(0, blocks.count()), KOKKOS_LAMBDA(int k) {
         const Block<D> cells = block_at<D>(grid, blocks, k);
         const Cover<D> sums = gather_water(w, grid, cells);
         cells.store(out.cover, sums.cover);
@@ -138,8 +141,8 @@ Maxima::Maxima(int cells, double wet_depth)
     : wet(wet_depth), depth("raster.max_depth", static_cast<size_t>(cells)), speed("raster.max_speed", static_cast<size_t>(cells)),
       depth_speed("raster.max_depth_speed", static_cast<size_t>(cells)), arrival("raster.arrival", static_cast<size_t>(cells)),
       last_wet("raster.last_wet", static_cast<size_t>(cells)) {
-  Kokkos::deep_copy(arrival, -1.0);
-  Kokkos::deep_copy(last_wet, -1.0);
+  assign(arrival, -1.0);
+  assign(last_wet, -1.0);
 }
 
 namespace {

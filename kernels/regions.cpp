@@ -1,5 +1,7 @@
 #include "kernels/regions.hpp"
 
+#include "cellgrid/assign.hpp"
+
 namespace freshet {
 namespace {
 
@@ -8,7 +10,7 @@ Field<T> uploaded(const std::string& label, const std::vector<T>& values) {
   Field<T> field(label, values.size());
   auto host = Kokkos::create_mirror_view(field);
   for (std::size_t k = 0; k < values.size(); ++k) host(k) = values[k];
-  Kokkos::deep_copy(field, host);
+  assign(field, host);
   return field;
 }
 

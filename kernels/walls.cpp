@@ -16,7 +16,7 @@ void fill(const Field<T>& field, const std::vector<WallPoint>& points, const F& 
 }
 
 void number(const Field<int>& id, int n) {
-  Kokkos::parallel_for("walls::number", Range(0, n), KOKKOS_LAMBDA(int k) { id(k) = k; });
+  launch("walls::number", Range(0, n), KOKKOS_LAMBDA(int k) { id(k) = k; });
 }
 
 Stretch stretch_of(WallKind kind) {
@@ -124,8 +124,8 @@ void Walls<D>::find(const ClusterSet& clusters, const ListRequest<D>& water, con
   if (kind_ == WallKind::mirror) {
     if (felt_h_.extent(0) < h.extent(0)) felt_h_ = Field<double>(Kokkos::ViewAllocateWithoutInitializing("walls.felt_h"), h.extent(0));
     const double reach = reach_ * (1 + water.margin);
-    Kokkos::parallel_for("walls::felt_h", balanced(clusters.size()),
-                         FeltLength<D>{clusters, near, water.x, h, felt_h_, water.source_rows, order_.rows(), reach});
+    launch("walls::felt_h", balanced(clusters.size()),
+           FeltLength<D>{clusters, near, water.x, h, felt_h_, water.source_rows, order_.rows(), reach});
     h = felt_h_;
   }
   near_.build<D>(clusters, {water.x, h, order_.rows(), view().x, points_.real("h"), reach_, water.margin});
@@ -155,7 +155,7 @@ void Walls<D>::reflect(const ClusterSet& clusters, const VecField<double, D>& x,
   const WallView<D> walls = view();
   const double deepest = depth_;
   const ClusterSet sets = clusters;
-  Kokkos::parallel_for("walls::reflect", Range(0, clusters.size()), KOKKOS_LAMBDA(int c) {
+  launch("walls::reflect", Range(0, clusters.size()), KOKKOS_LAMBDA(int c) {
         if (walls.near.length(c) == 0) return;
         const Lanes me = sets(c);
         for (int i = me.first; i < me.first + me.count; ++i)
@@ -165,10 +165,10 @@ void Walls<D>::reflect(const ClusterSet& clusters, const VecField<double, D>& x,
             const WallSegment s = walls.segments(segment);
             const Vec<double, D> normal = normal_of<D>(s);
             put(x, i, at(x, i) + (-2 * side_of(s, at(x, i)).inside) * normal);
-            const VecField<double, D> velocities[2] = {v, v_pred};
-            for (const VecField<double, D>& velocity : velocities) {
-              const double outward = smaller(dot(at(velocity, i), normal), 0.0);
-              put(velocity, i, at(velocity, i) + (-2 * outward) * normal);
+            const VecField<double, D>* const velocities[2] = {&v, &v_pred};  // not copies: those are counted
+            for (const auto* velocity : velocities) {
+              const double outward = smaller(dot(at(*velocity, i), normal), 0.0);
+              put(*velocity, i, at(*velocity, i) + (-2 * outward) * normal);
             }
           }
       });

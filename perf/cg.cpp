@@ -69,8 +69,8 @@ class System {
 
   // sum_j a_ij x_j with coefficients from places and depths; the closure's multipliers are zero, which takes as long as others.
   void multiply_anew() {
-    using Found = sisph::RecomputedPairs<2, CubicSpline<2>, false, false>;
-    const Found found{std::get<CubicSpline<2>>(kernel_), places_, {depth_, depth_, depth_, {}}, stiffness_};
+    using Found = sisph::RecomputedPairs<2, CubicSpline<2>, false>;
+    const Found found{std::get<CubicSpline<2>>(kernel_), places_, {depth_, depth_, depth_, {}, false}, stiffness_};
     (void)sum_of_slices<1>("perf::product_anew", g_.pairs.slices(),
                            linear::PairProduct<AllSlices, Found>{g_.pairs, {}, found, diagonal_, g_.free, right_, result_});
   }

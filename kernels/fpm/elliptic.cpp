@@ -1,5 +1,7 @@
 #include "kernels/fpm/elliptic.hpp"
 
+#include "cellgrid/launch.hpp"
+
 namespace freshet::fpm {
 namespace {
 
@@ -105,8 +107,8 @@ void Poisson<D>::assemble(const StencilView<D>& stencils, const Rows& rows, cons
   on_mesh_ = on_mesh_ && linear::PointMesh::suits(rows, around.points);
   matrix_.lay_out(around.clusters, around.near, around.points);
   if (!on_mesh_) matrix_.lay_out_rough();
-  Kokkos::parallel_for("fpm::rows", Range(0, around.clusters.size()),
-                       AssembleRows<D>{stencils, places, matrix_, per_source_, per_flux_, free_, weights_, on_mesh_});
+  launch("fpm::rows", Range(0, around.clusters.size()),
+         AssembleRows<D>{stencils, places, matrix_, per_source_, per_flux_, free_, weights_, on_mesh_});
   if (on_mesh_)
     mesh_.build(rows, around.x, around.points, around.period, weights_);
   else
@@ -127,7 +129,7 @@ void Poisson<D>::multiply(const Field<double>& x, const Field<double>& y) {
   if (!singular_) return;
   const int n = matrix_.rows;
   const double mean = sum_of_particles<1>("fpm::mean", n, KOKKOS_LAMBDA(const Lanes& me) { return LaneAddends<1>{{me.load(x)}}; })[0] / n;
-  Kokkos::parallel_for("fpm::add_mean", Range(0, n), KOKKOS_LAMBDA(int i) { y(i) += mean; });
+  launch("fpm::add_mean", Range(0, n), KOKKOS_LAMBDA(int i) { y(i) += mean; });
 }
 
 template <int D>
@@ -135,7 +137,7 @@ void Poisson<D>::set_right_side(const PoissonData& data, const Field<double>& ps
   const Field<double> b = b_, per_source = per_source_, per_flux = per_flux_;
   const Field<int> row = places_.row;
   const PoissonData d = data;
-  Kokkos::parallel_for("fpm::right_side", Range(0, matrix_.rows), KOKKOS_LAMBDA(int i) {
+  launch("fpm::right_side", Range(0, matrix_.rows), KOKKOS_LAMBDA(int i) {
         if (row(i) == row_value) psi(i) = d.value(i);
         const double flux = row(i) == row_flux ? per_flux(i) * d.flux(i) : 0.0;
         b(i) = row(i) == row_value ? psi(i) : per_source(i) * d.source(i) + flux;
@@ -154,7 +156,7 @@ PoissonReport Poisson<D>::solve(const PoissonData& data, const Field<double>& ps
                                [this](const auto& r, const auto& z) { precondition(r, z); }, b_, psi, options);
   if (!singular_) return report;
   const double mean = sum_of_particles<1>("fpm::mean", n, KOKKOS_LAMBDA(const Lanes& me) { return LaneAddends<1>{{me.load(psi)}}; })[0] / n;
-  Kokkos::parallel_for("fpm::take_mean", Range(0, n), KOKKOS_LAMBDA(int i) { psi(i) -= mean; });
+  launch("fpm::take_mean", Range(0, n), KOKKOS_LAMBDA(int i) { psi(i) -= mean; });
   return report;
 }
 

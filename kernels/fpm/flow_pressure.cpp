@@ -1,3 +1,4 @@
+#include "cellgrid/launch.hpp"
 #include "kernels/fpm/projection.hpp"
 
 namespace freshet::fpm {
@@ -27,9 +28,9 @@ PoissonReport Projection::pressure_of_flow(const Flow& flow, const Field<double>
   stencils_.fit(flow.v.x, flow.v_star.x);
   stencils_.fit(flow.v.y, flow.v_star.y);
   const bool slip = rule_.slip;
-  Kokkos::parallel_for("fpm::flow_walls", Range(0, flow.points), KOKKOS_LAMBDA(int i) { put(flow.v_star, i, held(flow, i, at(flow.v_star, i), slip)); });
-  Kokkos::parallel_for("fpm::flow_sources", Range(0, view.around.clusters.size()), FindSources{view, rule_, flow});
-  Kokkos::parallel_for("fpm::flow_guess", Range(0, flow.points), KOKKOS_LAMBDA(int i) {
+  launch("fpm::flow_walls", Range(0, flow.points), KOKKOS_LAMBDA(int i) { put(flow.v_star, i, held(flow, i, at(flow.v_star, i), slip)); });
+  launch("fpm::flow_sources", Range(0, view.around.clusters.size()), FindSources{view, rule_, flow});
+  launch("fpm::flow_guess", Range(0, flow.points), KOKKOS_LAMBDA(int i) {
         pressure(i) = flow.p(i);
         flow.value(i) = 0;
       });

@@ -1,5 +1,6 @@
 #include "kernels/fpm/points.hpp"
 
+#include "cellgrid/launch.hpp"
 #include "kernels/fpm/holding.hpp"
 #include "kernels/fpm/merging.hpp"
 #include "kernels/ids.hpp"
@@ -106,7 +107,7 @@ void Points::choose_partners(const Cloud& cloud, const Field<int>& surface, cons
   reserve(partner_, "fpm.partner", n);
   const Field<int> partner = partner_;
   const Pairing pairing{cloud, side, surface, rule_.merge * rule_.support / rule_.spacing, rule_.land};
-  Kokkos::parallel_for("fpm::partners", Range(0, n), KOKKOS_LAMBDA(int i) { partner(i) = pairing.closest(i).partner; });
+  launch("fpm::partners", Range(0, n), KOKKOS_LAMBDA(int i) { partner(i) = pairing.closest(i).partner; });
 }
 
 PointCount Points::decide(const Cloud& cloud, const Field<int>& surface, const Field<int>& side, int n) {
@@ -182,7 +183,7 @@ void Points::fill_places(FieldSet& points, int merged, int count) {
   for (const std::string& name : names) {
     const Field<double> field = points.real(name);
     transfer_.apply(field, value, place_slack_);
-    Kokkos::parallel_for("fpm::fill", Range(0, places),
+    launch("fpm::fill", Range(0, places),
         KOKKOS_LAMBDA(int k) { field(k < merged ? owner(k) : n + k - merged) = value(k); });
   }
 }
@@ -193,10 +194,10 @@ void Points::settle_places(FieldSet& points, int n, int merged, int& next_id) {
   const Field<double> slack = place_slack_;
   const Field<int> kind = points.integer("kind"), side = points.integer("side"), id = points.integer("id");
   const Field<int> owner = owner_, fate = fate_, place_kind = place_kind_, place_side = place_side_;
-  Kokkos::parallel_for("fpm::drop", Range(0, n), KOKKOS_LAMBDA(int i) {
+  launch("fpm::drop", Range(0, n), KOKKOS_LAMBDA(int i) {
         if (fate(i) == drop) id(i) = -1;
       });
-  Kokkos::parallel_for("fpm::settle", Range(0, places), KOKKOS_LAMBDA(int k) {
+  launch("fpm::settle", Range(0, places), KOKKOS_LAMBDA(int k) {
         const int i = k < merged ? owner(k) : n + k - merged;
         put(x, i, at(where, k));
         kind(i) = place_kind(k), side(i) = place_side(k);
@@ -212,7 +213,7 @@ void Points::hold_velocities(FieldSet& points) {
   const bool slip = rule_.slip;
   for (const auto& names : carried_.velocities) {
     const VecField<double, 2> v{points.real(names[0]), points.real(names[1])};
-    Kokkos::parallel_for("fpm::hold_velocity", Range(0, points.size()), KOKKOS_LAMBDA(int i) {
+    launch("fpm::hold_velocity", Range(0, points.size()), KOKKOS_LAMBDA(int i) {
           if (kind(i) == in_fluid) return;
           const Vec<double, 2> n = tank.normal(side(i), kind(i)), u = at(v, i);
           put(v, i, kind(i) == on_wall && slip ? u - dot(u, n) * n : Vec<double, 2>{});

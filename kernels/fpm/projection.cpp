@@ -1,5 +1,6 @@
 #include "kernels/fpm/projection.hpp"
 
+#include "cellgrid/launch.hpp"
 #include "kernels/fpm/spray.hpp"
 
 namespace freshet::fpm {
@@ -74,7 +75,7 @@ struct Predict {
 }  // namespace
 
 void advect(const Flow& flow, const Period& period, double dt, double ratio) {
-  Kokkos::parallel_for("fpm::advect", Range(0, flow.points), KOKKOS_LAMBDA(int i) {
+  launch("fpm::advect", Range(0, flow.points), KOKKOS_LAMBDA(int i) {
         const Vec<double, 2> v = at(flow.v, i), mean = v + (0.5 * ratio) * (v - at(flow.v_old, i));
         put(flow.x, i, period.wrap(at(flow.x, i) + dt * mean));
       });
@@ -119,7 +120,7 @@ ProjectionReport Projection::advance(const Neighbourhood<2>& around, const Rows&
 // What each point's row of the pressure equation is.
 void Projection::find_rows(const Neighbourhood<2>& around, const Flow& flow) {
   const TankView tank = tank_;
-  Kokkos::parallel_for("fpm::find_rows", Range(0, around.clusters.size()), KOKKOS_LAMBDA(int c) {
+  launch("fpm::find_rows", Range(0, around.clusters.size()), KOKKOS_LAMBDA(int c) {
         const Lanes me = around.clusters(c);
         for (int i = me.first; i < me.first + me.count; ++i) {
           const bool wall = is_wall(flow.kind(i));
@@ -132,7 +133,7 @@ void Projection::find_rows(const Neighbourhood<2>& around, const Flow& flow) {
 void Projection::guess_pressure(const Flow& flow) {
   const Scheme scheme = rule_.scheme;
   if (scheme == Scheme::filtered) stencils_.fit(flow.p, flow.q);
-  Kokkos::parallel_for("fpm::guess_pressure", Range(0, flow.points), KOKKOS_LAMBDA(int i) {
+  launch("fpm::guess_pressure", Range(0, flow.points), KOKKOS_LAMBDA(int i) {
         if (scheme == Scheme::incremental) flow.q(i) = flow.p(i);
         if (scheme == Scheme::plain || scheme == Scheme::projection || flow.row(i) == row_value) flow.q(i) = 0;
         flow.value(i) = -flow.q(i);
@@ -143,9 +144,9 @@ void Projection::guess_pressure(const Flow& flow) {
 void Projection::predict(const Flow& flow, const Backward& time) {
   const Range clusters(0, stencils_.view().around.clusters.size());
   if (rule_.viscosity > 0 && !rule_.implicit)
-    Kokkos::parallel_for("fpm::predict", clusters, Predict<true>{stencils_.view(), rule_, flow, time});
+    launch("fpm::predict", clusters, Predict<true>{stencils_.view(), rule_, flow, time});
   else
-    Kokkos::parallel_for("fpm::predict", clusters, Predict<false>{stencils_.view(), rule_, flow, time});
+    launch("fpm::predict", clusters, Predict<false>{stencils_.view(), rule_, flow, time});
 }
 
 linear::BiCgStabReport Projection::diffuse(const Flow& flow, const Backward& time) {
@@ -156,7 +157,7 @@ linear::BiCgStabReport Projection::diffuse(const Flow& flow, const Backward& tim
 // The printed schemes'.
 void Projection::hold_walls(const Flow& flow) {
   if (rule_.scheme != Scheme::incremental && rule_.scheme != Scheme::projection) return;
-  Kokkos::parallel_for("fpm::hold_walls", Range(0, flow.points), KOKKOS_LAMBDA(int i) {
+  launch("fpm::hold_walls", Range(0, flow.points), KOKKOS_LAMBDA(int i) {
         if (is_wall(flow.kind(i))) put(flow.v_star, i, Vec<double, 2>{});
       });
 }
@@ -164,7 +165,7 @@ void Projection::hold_walls(const Flow& flow) {
 void Projection::find_sources(const Flow& flow, const Backward& time) {
   const StencilView<2> view = stencils_.view();
   const double factor = rule_.density / time.tau;
-  Kokkos::parallel_for("fpm::sources", Range(0, view.around.clusters.size()), KOKKOS_LAMBDA(int c) {
+  launch("fpm::sources", Range(0, view.around.clusters.size()), KOKKOS_LAMBDA(int c) {
         const Lanes me = view.around.clusters(c);
         me.store(flow.source, factor * (view.divergence(c, flow.v_star) - Lane(flow.expansion)));
         me.store(flow.flux, factor * dot(me.load(flow.normal), me.load(flow.v_star)));
@@ -174,7 +175,7 @@ void Projection::find_sources(const Flow& flow, const Backward& time) {
 void Projection::correct(const Flow& flow, const Backward& time) {
   const StencilView<2> view = stencils_.view();
   const double factor = time.tau / rule_.density;
-  Kokkos::parallel_for("fpm::correct", Range(0, view.around.clusters.size()), KOKKOS_LAMBDA(int c) {
+  launch("fpm::correct", Range(0, view.around.clusters.size()), KOKKOS_LAMBDA(int c) {
         const Lanes me = view.around.clusters(c);
         me.store(flow.v_star, me.load(flow.v_star) - Lane(factor) * view.gradient(c, flow.phi));
       });
@@ -182,7 +183,7 @@ void Projection::correct(const Flow& flow, const Backward& time) {
 
 void Projection::settle(const Flow& flow) {
   const bool slip = rule_.slip;
-  Kokkos::parallel_for("fpm::new_state", Range(0, flow.points), KOKKOS_LAMBDA(int i) {
+  launch("fpm::new_state", Range(0, flow.points), KOKKOS_LAMBDA(int i) {
         put(flow.v_old, i, at(flow.v, i));
         put(flow.v, i, held(flow, i, at(flow.v_star, i), slip));
         flow.p(i) = flow.row(i) == row_value ? 0.0 : flow.q(i) + flow.phi(i);
@@ -192,7 +193,7 @@ void Projection::settle(const Flow& flow) {
 void Projection::smooth_edges(const Flow& flow) {
   const StencilView<2> view = stencils_.view();
   const bool slip = rule_.slip;
-  Kokkos::parallel_for("fpm::smooth_edges", Range(0, view.around.clusters.size()), KOKKOS_LAMBDA(int c) {
+  launch("fpm::smooth_edges", Range(0, view.around.clusters.size()), KOKKOS_LAMBDA(int c) {
         const Lanes me = view.around.clusters(c);
         const Vec<Lane, 2> v = me.load(flow.v);
         const Lane edge = view.around.any_near(c, edge_reach, [&](int j) { return flow.surface(j) == 1 || is_wall(flow.kind(j)); });
@@ -200,8 +201,8 @@ void Projection::smooth_edges(const Flow& flow) {
         if (any(Lane(0.0) < edge)) change = (edge_smoothing * edge) * (Vec<Lane, 2>{view.fit(c, flow.v.x), view.fit(c, flow.v.y)} - v);
         me.store(flow.v_star, v + change);
       });
-  Kokkos::parallel_for("fpm::hold_edges", Range(0, flow.points),
-                       KOKKOS_LAMBDA(int i) { put(flow.v, i, held(flow, i, at(flow.v_star, i), slip)); });
+  launch("fpm::hold_edges", Range(0, flow.points),
+         KOKKOS_LAMBDA(int i) { put(flow.v, i, held(flow, i, at(flow.v_star, i), slip)); });
 }
 
 // A residual r of a row with s per source leaves the divergence tau r / (rho s), over a support the velocity h tau r / (rho s): the root of

@@ -1,12 +1,14 @@
 #include "kernels/fpm/stencils.hpp"
 
+#include "cellgrid/launch.hpp"
+
 namespace freshet::fpm {
 namespace {
 
 // result = at(c) at the points of each cluster c.
 template <int D, class Result, class At>
 void at_points(const char* label, const StencilView<D>& view, const Result& result, const At& at_cluster) {
-  Kokkos::parallel_for(label, Range(0, view.around.clusters.size()), KOKKOS_LAMBDA(int c) {
+  launch(label, Range(0, view.around.clusters.size()), KOKKOS_LAMBDA(int c) {
         view.around.clusters(c).store(result, at_cluster(c));
       });
 }

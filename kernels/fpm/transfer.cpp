@@ -1,5 +1,7 @@
 #include "kernels/fpm/transfer.hpp"
 
+#include "cellgrid/launch.hpp"
+
 namespace freshet::fpm {
 namespace {
 
@@ -14,7 +16,7 @@ void Transfer::find(const Near& near, const VecField<double, 2>& places, const F
     factors_ = decltype(factors_)(Kokkos::ViewAllocateWithoutInitializing("fpm.transfer"), static_cast<std::size_t>(count + count / 2));
   near_ = near, places_ = places, count_ = count, h_ = h;
   const auto factors = factors_;
-  Kokkos::parallel_for("fpm::transfer_factors", Range(0, count), KOKKOS_LAMBDA(int k) {
+  launch("fpm::transfer_factors", Range(0, count), KOKKOS_LAMBDA(int k) {
         Moments<double, 2> moments;
         const double per_h = 1 / h(k);
         near.for_each(at(places, k), h(k), [&](int, const Vec<double, 2>& d, double r2) {
@@ -29,7 +31,7 @@ void Transfer::apply(const Field<double>& field, const Field<double>& value, con
   const VecField<double, 2> places = places_;
   const auto factors = factors_;
   const Field<double> h = h_;
-  Kokkos::parallel_for("fpm::transfer", Range(0, count_), KOKKOS_LAMBDA(int k) {
+  launch("fpm::transfer", Range(0, count_), KOKKOS_LAMBDA(int k) {
         double sum = 0, low = 1e300, high = -1e300;
         const double per_h = 1 / h(k);
         near.for_each(at(places, k), h(k), [&](int j, const Vec<double, 2>& d, double r2) {

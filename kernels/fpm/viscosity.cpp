@@ -1,5 +1,7 @@
 #include "kernels/fpm/viscosity.hpp"
 
+#include "cellgrid/launch.hpp"
+
 namespace freshet::fpm {
 namespace {
 
@@ -82,14 +84,14 @@ void ImplicitViscosity::assemble(const StencilView<2>& stencils, double k) {
   matrix_.lay_out(around.clusters, around.near, n);
   if (per_b_.extent_int(0) < n + lanes) per_b_ = Field<double>("fpm.viscous_rows", static_cast<size_t>(n + n / 2 + lanes));
   for (Field<double>* f : {&b_, &x_}) linear::reserve(*f, "fpm.viscous", 2 * n + lanes);
-  Kokkos::parallel_for("fpm::viscous_rows", Range(0, around.clusters.size()), AssembleViscousRows{stencils, places_, matrix_, per_b_, k});
+  launch("fpm::viscous_rows", Range(0, around.clusters.size()), AssembleViscousRows{stencils, places_, matrix_, per_b_, k});
 }
 
 void ImplicitViscosity::set_right_side(const VecField<double, 2>& v, const VecField<double, 2>& start) {
   const int n = matrix_.rows;
   const ViscousPlaces places = places_;
   const Field<double> b = b_, x = x_, per_b = per_b_;
-  Kokkos::parallel_for("fpm::viscous_side", Range(0, n), KOKKOS_LAMBDA(int i) {
+  launch("fpm::viscous_side", Range(0, n), KOKKOS_LAMBDA(int i) {
         const Vec<double, 2> full = at(v, i), normal = at(places.normal, i), across = dot(full, normal) * normal;
         Vec<double, 2> side = per_b(i) * full;
         if (places.kind(i) != in_fluid && !places.slip) side = places.first_step ? full : across;
@@ -107,7 +109,7 @@ void ImplicitViscosity::multiply(const Field<double>& x, const Field<double>& y)
   const VecField<double, 2> normal = places_.normal;
   const VecField<double, 2> in{Kokkos::subview(x, std::make_pair(0, m.rows)), Kokkos::subview(x, std::make_pair(m.rows, 2 * m.rows))};
   const VecField<double, 2> out{Kokkos::subview(y, std::make_pair(0, m.rows)), Kokkos::subview(y, std::make_pair(m.rows, 2 * m.rows))};
-  Kokkos::parallel_for("fpm::viscous_multiply", Range(0, m.clusters.size()), KOKKOS_LAMBDA(int c) {
+  launch("fpm::viscous_multiply", Range(0, m.clusters.size()), KOKKOS_LAMBDA(int c) {
         const Lanes me = m.clusters(c);
         const Vec<Lane, 2> n = me.load(normal), others = m.off_diagonal(c, in);
         me.store(out, me.load(in) + others - dot(others, n) * n);
@@ -127,7 +129,7 @@ linear::BiCgStabReport ImplicitViscosity::solve(const StencilView<2>& stencils, 
   const auto report = krylov_.solve(2 * n, [this](const auto& x, const auto& y) { multiply(x, y); },
                                     [n](const auto& r, const auto& z) { linear::follow(2 * n, r, 0, z); }, b_, x_, options);
   const Field<double> x = x_;
-  Kokkos::parallel_for("fpm::viscous_result", Range(0, n), KOKKOS_LAMBDA(int i) { put(v, i, {x(i), x(n + i)}); });
+  launch("fpm::viscous_result", Range(0, n), KOKKOS_LAMBDA(int i) { put(v, i, {x(i), x(n + i)}); });
   return report;
 }
 

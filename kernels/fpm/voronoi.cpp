@@ -1,5 +1,7 @@
 #include "kernels/fpm/voronoi.hpp"
 
+#include "cellgrid/launch.hpp"
+
 namespace freshet::fpm {
 namespace {
 
@@ -122,7 +124,7 @@ VoronoiReport Voronoi::find(const Cloud& cloud, int n, const Field<int>& surface
         missing(i) = searcher.search(i, c);
         holes += missing(i).kind != Missing::none;
       }, r.surface, r.missing, r.failed);
-  if (seen.x.extent(0) > 0) Kokkos::parallel_for("fpm::remember_air", Range(0, n), KOKKOS_LAMBDA(int i) { put(seen, i, at(open, i)); });
+  if (seen.x.extent(0) > 0) launch("fpm::remember_air", Range(0, n), KOKKOS_LAMBDA(int i) { put(seen, i, at(open, i)); });
   return r;
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 #include <cmath>
 
+#include "cellgrid/launch.hpp"
 #include "kernels/linear/vectors.hpp"
 
 namespace freshet::linear {
@@ -67,14 +68,14 @@ class BiCgStab {
   // Extended lambdas must not be in private functions on devices.
   double restart(int n, double rr) {
     const Vector r = r_, r0 = r0_;
-    Kokkos::parallel_for("bicgstab::restart", Range(0, n), KOKKOS_LAMBDA(int i) { r0(i) = r(i); });
+    launch("bicgstab::restart", Range(0, n), KOKKOS_LAMBDA(int i) { r0(i) = r(i); });
     return rr;
   }
 
   // p := r + beta (p - omega v); beta = 0: p := r, whatever p and v held
   void direction(int n, double beta, double omega) {
     const Vector r = r_, p = p_, v = v_;
-    Kokkos::parallel_for("bicgstab::direction", Range(0, n), KOKKOS_LAMBDA(int i) {
+    launch("bicgstab::direction", Range(0, n), KOKKOS_LAMBDA(int i) {
           p(i) = beta == 0 ? r(i) : r(i) + beta * (p(i) - omega * v(i));
         });
   }

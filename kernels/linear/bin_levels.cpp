@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "cellgrid/launch.hpp"
 #include "kernels/linear/bin_multigrid.hpp"
 
 namespace freshet::linear {
@@ -32,7 +33,7 @@ int halved_reach(int reach, int bins, bool wrap) { return (reach + 1 + (wrap && 
 // Finds which bin each fine unknown's is, once the coarse bins are numbered.
 void find_parents(const BinLevel& fine, const BinLevel& coarse) {
   const BinLevel f = fine, c = coarse;
-  Kokkos::parallel_for("multigrid::parents", Range(0, fine.size), KOKKOS_LAMBDA(int k) {
+  launch("multigrid::parents", Range(0, fine.size), KOKKOS_LAMBDA(int k) {
         f.parent(k) = c.number(f.bin(k) / f.nx / 2 * c.nx + f.bin(k) % f.nx / 2);
       });
 }
@@ -50,14 +51,14 @@ void reserve(BinLevel& level) {
 
 // Zero rows with their columns; a slot without unknown refers to its own row. And which blocks can do without gathers.
 void clear_rows(const BinLevel& level) {
-  Kokkos::parallel_for("multigrid::clear_rows", Range(0, level.size), KOKKOS_LAMBDA(int k) {
+  launch("multigrid::clear_rows", Range(0, level.size), KOKKOS_LAMBDA(int k) {
         for (int s = 0; s < level.width(); ++s) {
           const int j = level.unknown(level.bin(k), s);
           level.a(k, s) = 0;
           level.column(k, s) = j < 0 ? k : j;
         }
       });
-  Kokkos::parallel_for("multigrid::even", Range(0, level.blocks()), KOKKOS_LAMBDA(int c) {
+  launch("multigrid::even", Range(0, level.blocks()), KOKKOS_LAMBDA(int c) {
         const int first = c * lanes;
         int even = first + lanes <= level.size;
         for (int s = 0; s < level.width(); ++s)
@@ -67,7 +68,7 @@ void clear_rows(const BinLevel& level) {
 }
 
 void invert_diagonal(const BinLevel& level) {
-  Kokkos::parallel_for("multigrid::diagonal", Range(0, level.size), KOKKOS_LAMBDA(int k) {
+  launch("multigrid::diagonal", Range(0, level.size), KOKKOS_LAMBDA(int k) {
         const double d = level.a(k, level.centre());
         level.inverse_diagonal(k) = d > 1e-3 * level.weight(k) ? 1 / d : 1 / level.weight(k);  // rows near zero are not smoothed by them
       });
@@ -102,7 +103,7 @@ void BinMultigrid::find_clusters() {
   const ClusterMatrix m = matrix_;
   grow(cluster_, "multigrid.cluster", m.rows);
   const Field<int> cluster = cluster_;
-  Kokkos::parallel_for("multigrid::clusters", Range(0, m.clusters.size()), KOKKOS_LAMBDA(int c) {
+  launch("multigrid::clusters", Range(0, m.clusters.size()), KOKKOS_LAMBDA(int c) {
         const Lanes me = m.clusters(c);
         for (int l = 0; l < me.count; ++l) cluster(me.first + l) = c;
       });
@@ -118,7 +119,7 @@ void BinMultigrid::number_bins(BinLevel& level) {
       }, level.size);
   reserve(level);
   const BinLevel l = level;
-  Kokkos::parallel_for("multigrid::list_bins", Range(0, level.nx * level.ny), KOKKOS_LAMBDA(int bin) {
+  launch("multigrid::list_bins", Range(0, level.nx * level.ny), KOKKOS_LAMBDA(int bin) {
         if (l.number(bin) >= 0) l.bin(l.number(bin)) = bin;
       });
 }
@@ -152,7 +153,7 @@ void BinMultigrid::sum_points(BinLevel& level) {
   grow(parent_, "multigrid.point_parent", matrix_.rows);
   const PointsOfBins points{rows_, bins_, level.nx};
   const Field<int> number = level.number, free = free_, parent = parent_, cluster = cluster_;
-  Kokkos::parallel_for("multigrid::mark_bins", Range(0, level.nx * level.ny), KOKKOS_LAMBDA(int bin) {
+  launch("multigrid::mark_bins", Range(0, level.nx * level.ny), KOKKOS_LAMBDA(int bin) {
         int holds = -1;
         for (int i = points.first(bin); i < points.end(bin); ++i) holds = free(i) ? 1 : holds;
         number(bin) = holds;
@@ -160,11 +161,11 @@ void BinMultigrid::sum_points(BinLevel& level) {
   number_bins(level);
   const BinLevel l = level;
   const ClusterMatrix m = matrix_;
-  Kokkos::parallel_for("multigrid::point_parents", Range(0, level.nx * level.ny), KOKKOS_LAMBDA(int bin) {
+  launch("multigrid::point_parents", Range(0, level.nx * level.ny), KOKKOS_LAMBDA(int bin) {
         for (int i = points.first(bin); i < points.end(bin); ++i) parent(i) = free(i) ? l.number(bin) : -1;
       });
   clear_rows(level);
-  Kokkos::parallel_for("multigrid::sum_points", Range(0, level.size), KOKKOS_LAMBDA(int k) {
+  launch("multigrid::sum_points", Range(0, level.size), KOKKOS_LAMBDA(int k) {
         double members = 0;
         for (int i = points.first(l.bin(k)); i < points.end(l.bin(k)); ++i) {
           if (!free(i)) continue;
@@ -194,7 +195,7 @@ void BinMultigrid::sum_bins(const BinLevel& fine, BinLevel& coarse) {
   coarse.wrap_y = fine.wrap_y;
   grow(coarse.number, "multigrid.number", coarse.nx * coarse.ny);
   const BinLevel f = fine, grid = coarse;
-  Kokkos::parallel_for("multigrid::mark_bins", Range(0, coarse.nx * coarse.ny), KOKKOS_LAMBDA(int bin) {
+  launch("multigrid::mark_bins", Range(0, coarse.nx * coarse.ny), KOKKOS_LAMBDA(int bin) {
         grid.number(bin) = -1;
         for_each_child(f, grid, bin, [&](int) { grid.number(bin) = 1; });
       });
@@ -202,7 +203,7 @@ void BinMultigrid::sum_bins(const BinLevel& fine, BinLevel& coarse) {
   find_parents(fine, coarse);
   clear_rows(coarse);
   const BinLevel l = coarse;
-  Kokkos::parallel_for("multigrid::sum_bins", Range(0, coarse.size), KOKKOS_LAMBDA(int k) {
+  launch("multigrid::sum_bins", Range(0, coarse.size), KOKKOS_LAMBDA(int k) {
         l.weight(k) = 0;
         for_each_child(f, l, l.bin(k), [&](int i) {
           l.weight(k) += f.weight(i);

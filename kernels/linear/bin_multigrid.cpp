@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "cellgrid/launch.hpp"
+
 namespace freshet::linear {
 namespace {
 
@@ -23,7 +25,7 @@ const char* residual_label(const BinLevel&) { return "multigrid::residual_bins";
 // to := damping D^-1 b
 template <class Level>
 void smooth_zero(const Level& level, const Vector& b, const Vector& to, double damping) {
-  Kokkos::parallel_for("multigrid::smooth_zero", Range(0, level.blocks()), KOKKOS_LAMBDA(int c) {
+  launch("multigrid::smooth_zero", Range(0, level.blocks()), KOKKOS_LAMBDA(int c) {
         const Lanes me = level.block(c);
         me.store(to, damping * level.per_diagonal(c) * me.load(b));
       });
@@ -32,7 +34,7 @@ void smooth_zero(const Level& level, const Vector& b, const Vector& to, double d
 // to := x + damping D^-1 (b - A x)
 template <class Level>
 void smooth(const Level& level, const Vector& b, const Vector& x, const Vector& to, double damping) {
-  Kokkos::parallel_for(smooth_label(level), Range(0, level.blocks()), KOKKOS_LAMBDA(int c) {
+  launch(smooth_label(level), Range(0, level.blocks()), KOKKOS_LAMBDA(int c) {
         const Lanes me = level.block(c);
         me.store(to, me.load(x) + damping * level.per_diagonal(c) * (me.load(b) - level.times(c, x)));
       });
@@ -48,7 +50,7 @@ void smooth_from_zero(const Level& level, const Vector& b, Vector& x, Vector& y,
 // to := b - A x
 template <class Level>
 void find_residual(const Level& level, const Vector& b, const Vector& x, const Vector& to) {
-  Kokkos::parallel_for(residual_label(level), Range(0, level.blocks()), KOKKOS_LAMBDA(int c) {
+  launch(residual_label(level), Range(0, level.blocks()), KOKKOS_LAMBDA(int c) {
         const Lanes me = level.block(c);
         me.store(to, me.load(b) - level.times(c, x));
       });
@@ -56,7 +58,7 @@ void find_residual(const Level& level, const Vector& b, const Vector& x, const V
 
 // x += factor e(parent)
 void add_coarse(int n, const Field<int>& parent, double factor, const Vector& e, const Vector& x) {
-  Kokkos::parallel_for("multigrid::add_coarse", Range(0, n), KOKKOS_LAMBDA(int i) {
+  launch("multigrid::add_coarse", Range(0, n), KOKKOS_LAMBDA(int i) {
         if (parent(i) >= 0) x(i) += factor * e(parent(i));
       });
 }
@@ -73,7 +75,7 @@ void BinMultigrid::operator()(const Vector& r, const Vector& z) {
   const PointsOfBins bins{rows_, bins_, first.nx};
   const Field<int> bin = first.bin;
   const Vector b = first.b;
-  Kokkos::parallel_for("multigrid::restrict_points", Range(0, first.size), KOKKOS_LAMBDA(int k) {
+  launch("multigrid::restrict_points", Range(0, first.size), KOKKOS_LAMBDA(int k) {
         double sum = 0;
         for (int i = bins.first(bin(k)); i < bins.end(bin(k)); ++i) sum += y(i);
         b(k) = sum;
@@ -91,7 +93,7 @@ void BinMultigrid::cycle(int depth) {
     const auto inverse = inverse_;
     const Vector x = level.x;
     const int n = level.size;
-    Kokkos::parallel_for("multigrid::coarsest", Range(0, n), KOKKOS_LAMBDA(int i) {
+    launch("multigrid::coarsest", Range(0, n), KOKKOS_LAMBDA(int i) {
           double sum = 0;
           for (int j = 0; j < n; ++j) sum += inverse(i, j) * b(j);
           x(i) = sum;
@@ -101,7 +103,7 @@ void BinMultigrid::cycle(int depth) {
   smooth_from_zero(level, b, level.x, level.y, options_);
   find_residual(level, b, level.x, level.y);
   const BinLevel fine = level, coarse = levels_[static_cast<std::size_t>(depth + 1)];
-  Kokkos::parallel_for("multigrid::restrict", Range(0, coarse.size), KOKKOS_LAMBDA(int k) {
+  launch("multigrid::restrict", Range(0, coarse.size), KOKKOS_LAMBDA(int k) {
         double sum = 0;
         for_each_child(fine, coarse, coarse.bin(k), [&](int i) { sum += fine.y(i); });
         coarse.b(k) = sum;

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "cellgrid/launch.hpp"
+
 namespace freshet::linear {
 namespace {
 
@@ -177,7 +179,7 @@ void lay_out(BoxLevel& level, const BoxGrid& grid) {
 
 template <class Pass>
 void each_row(const char* label, const BoxGrid& grid, const Pass& pass) {
-  Kokkos::parallel_for(label, Range(0, grid.ny), pass);
+  launch(label, Range(0, grid.ny), pass);
 }
 
 void sweep(BoxLevel& l, double factor) {

@@ -7,6 +7,7 @@
 
 #include "cellgrid/clusters.hpp"
 #include "cellgrid/huge_pages.hpp"
+#include "cellgrid/launch.hpp"
 
 namespace freshet::linear {
 
@@ -117,7 +118,7 @@ struct ClusterMatrix {
   // y := A x
   void multiply(const Field<double>& x, const Field<double>& y) const {
     const ClusterMatrix m = *this;
-    Kokkos::parallel_for("linear::multiply", Range(0, clusters.size()), KOKKOS_LAMBDA(int c) {
+    launch("linear::multiply", Range(0, clusters.size()), KOKKOS_LAMBDA(int c) {
           const Lanes me = m.clusters(c);
           me.store(y, me.load(x) + m.off_diagonal(c, x));
         });

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cellgrid/clusters.hpp"
+#include "cellgrid/launch.hpp"
 #include "kernels/linear/mesh_passes.hpp"
 
 namespace freshet::linear {
@@ -85,13 +86,13 @@ void MeshCorrection<D>::lay(const Rows& rows, const VecField<double, D>& x, int 
   reserve(first_, "mesh_correction.first", m.size() + 1);
   linear::reserve(south_, "mesh_correction.south", grid.size());
   linear::reserve(north_, "mesh_correction.north", grid.size());
-  Kokkos::parallel_for("mesh_correction::places", Range(0, m.rows), FindPlaces<D>{{m, grid, first_}, rows, bins, x, node_, fx_, fy_});
+  launch("mesh_correction::places", Range(0, m.rows), FindPlaces<D>{{m, grid, first_}, rows, bins, x, node_, fx_, fy_});
 }
 
 template <int D>
 void MeshCorrection<D>::add(const Vector& r, const Field<double>& weight, const Vector& z) const {
-  Kokkos::parallel_for("mesh_correction::from_nodes", Range(0, (points_ + lanes - 1) / lanes),
-                       FromNodes{c_, r, z, node_, fx_, fy_, weight, multigrid_.finest().grid.stride(), points_});
+  launch("mesh_correction::from_nodes", Range(0, (points_ + lanes - 1) / lanes),
+         FromNodes{c_, r, z, node_, fx_, fy_, weight, multigrid_.finest().grid.stride(), points_});
 }
 
 template class MeshCorrection<1>;

@@ -1,5 +1,6 @@
 // The passes of MeshCorrection from points to its nodes, for what functions of the point its users carry.
 #pragma once
+#include "cellgrid/launch.hpp"
 #include "kernels/linear/mesh_correction.hpp"
 
 namespace freshet::linear {
@@ -98,10 +99,10 @@ void MeshCorrection<D>::set(const Mass& mass, const Area& area) {
   const BoxLevel& level = multigrid_.finest();
   const Cells cells{cells_, level.grid, first_};
   const Range of_cells(0, cells_.rows), of_nodes(0, level.grid.ny);
-  Kokkos::parallel_for("mesh_correction::masses", of_cells, ToNodes<Mass>{cells, fx_, fy_, mass, south_, north_});
-  Kokkos::parallel_for("mesh_correction::add_masses", of_nodes, AddRows{cells, south_, north_, level.mass});
-  Kokkos::parallel_for("mesh_correction::conductances", of_cells, Conductances<Area>{cells, fx_, fy_, area, south_, north_, level.north});
-  Kokkos::parallel_for("mesh_correction::add_conductances", of_nodes, AddRows{cells, south_, north_, level.east});
+  launch("mesh_correction::masses", of_cells, ToNodes<Mass>{cells, fx_, fy_, mass, south_, north_});
+  launch("mesh_correction::add_masses", of_nodes, AddRows{cells, south_, north_, level.mass});
+  launch("mesh_correction::conductances", of_cells, Conductances<Area>{cells, fx_, fy_, area, south_, north_, level.north});
+  launch("mesh_correction::add_conductances", of_nodes, AddRows{cells, south_, north_, level.east});
   multigrid_.coarsen();
 }
 
@@ -110,8 +111,8 @@ template <class Value>
 void MeshCorrection<D>::solve(const Value& value) {
   const BoxLevel& level = multigrid_.finest();
   const Cells cells{cells_, level.grid, first_};
-  Kokkos::parallel_for("mesh_correction::to_nodes", Range(0, cells_.rows), ToNodes<Value>{cells, fx_, fy_, value, south_, north_});
-  Kokkos::parallel_for("mesh_correction::add_rows", Range(0, level.grid.ny), AddRows{cells, south_, north_, level.right});
+  launch("mesh_correction::to_nodes", Range(0, cells_.rows), ToNodes<Value>{cells, fx_, fy_, value, south_, north_});
+  launch("mesh_correction::add_rows", Range(0, level.grid.ny), AddRows{cells, south_, north_, level.right});
   c_ = multigrid_.cycle();
 }
 

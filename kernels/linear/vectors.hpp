@@ -2,6 +2,7 @@
 // function is one visit to memory.
 // n: unknowns; fields may be longer. Device-safe: KOKKOS_LAMBDA with local copies only.
 #pragma once
+#include "cellgrid/launch.hpp"
 #include "cellgrid/sums.hpp"
 
 namespace freshet::linear {
@@ -32,16 +33,16 @@ inline double subtract_from(int n, const Vector& b, const Vector& y) {
 
 // y := alpha x + y
 inline void add(int n, double alpha, const Vector& x, const Vector& y) {
-  Kokkos::parallel_for("linear::add", Range(0, n), KOKKOS_LAMBDA(int i) { y(i) += alpha * x(i); });
+  launch("linear::add", Range(0, n), KOKKOS_LAMBDA(int i) { y(i) += alpha * x(i); });
 }
 
 // y := x + beta y; beta = 0 is a copy, whatever y held.
 inline void follow(int n, const Vector& x, double beta, const Vector& y) {
-  Kokkos::parallel_for("linear::follow", Range(0, n), KOKKOS_LAMBDA(int i) { y(i) = beta == 0 ? x(i) : x(i) + beta * y(i); });
+  launch("linear::follow", Range(0, n), KOKKOS_LAMBDA(int i) { y(i) = beta == 0 ? x(i) : x(i) + beta * y(i); });
 }
 
 inline void fill(int n, double value, const Vector& y) {
-  Kokkos::parallel_for("linear::fill", Range(0, n), KOKKOS_LAMBDA(int i) { y(i) = value; });
+  launch("linear::fill", Range(0, n), KOKKOS_LAMBDA(int i) { y(i) = value; });
 }
 
 // The scratch of a solver: grown only where the system grows, by half.

@@ -1,5 +1,7 @@
 #include "kernels/sisph/active.hpp"
 
+#include "cellgrid/launch.hpp"
+
 namespace freshet::sisph {
 
 template <int D>
@@ -14,7 +16,7 @@ template <int D>
 void ActiveSlices<D>::number_slices() {
   const PairView pairs = g_.pairs;
   const Field<int> slice = slice_;
-  Kokkos::parallel_for("sisph::number_slices", Range(0, pairs.slices()), KOKKOS_LAMBDA(int s) {
+  launch("sisph::number_slices", Range(0, pairs.slices()), KOKKOS_LAMBDA(int s) {
         const Lanes me = pairs(s);
         for (int l = 0; l < me.count; ++l) slice(me.particle(l)) = s;
       });
@@ -36,7 +38,7 @@ void ActiveSlices<D>::find(const Field<double>& depth, int supports) {
         dry += here;
       }, dry_);
   for (int ring = 1; dry_ > 0 && ring <= supports; ++ring)
-    Kokkos::parallel_for("sisph::spread", Range(0, pairs.slices()), KOKKOS_LAMBDA(int s) {
+    launch("sisph::spread", Range(0, pairs.slices()), KOKKOS_LAMBDA(int s) {
           if (near(s) != ring) return;
           pairs.for_each(s, [&](int, PairIndex j) {
             for (int l = 0; l < lanes; ++l) {

@@ -40,17 +40,18 @@ KOKKOS_FORCEINLINE_FUNCTION Lane mean_face(const Holding& i, const Holding& j) {
   return 0.5 * (face_depth<drying>(i.depth, j.depth, i.bed, j.bed) + face_depth<drying>(i.last, j.last, i.bed, j.bed));
 }
 
-template <bool drying, bool dragged>
-KOKKOS_FORCEINLINE_FUNCTION Lane coefficient(double stiffness, Lane area, Lane distance, const Holding& i, const Holding& j) {
+template <bool drying>
+KOKKOS_FORCEINLINE_FUNCTION Lane coefficient(double stiffness, Lane area, Lane distance, const Holding& i, const Holding& j, bool dragged) {
   const Lane a = stiffness * area * mean_face<drying>(i, j) / distance;
-  if constexpr (!dragged) return a;
+  if (!dragged) return a;
   return a / (1.0 + 0.5 * (i.drag + j.drag));
 }
 
 // Where the holdings stand. Where all is wet the mean of both depths stands for each: H_ij is the same.
-template <bool drying, bool dragged>
+template <bool drying>
 struct Holdings {
-  Field<double> depth, last, bed, drag;  // drag: empty unless dragged
+  Field<double> depth, last, bed, drag;
+  bool dragged;  // else drag is empty
 
   // value(field): that of the lanes in question
   template <class Value>
@@ -81,11 +82,11 @@ struct Places {
   Field<double> omega, per_moment;  // m^D; 1 / s_i
 };
 
-template <int D, class Kernel, bool drying, bool dragged>
+template <int D, class Kernel, bool drying>
 struct RecomputedPairs {
   Kernel kernel;
   Places<D> at;
-  Holdings<drying, dragged> water;
+  Holdings<drying> water;
   double stiffness;  // g theta^2 dt^2
 
   // pair(entry, j, a_ij) for the entries of a slice.
@@ -100,7 +101,7 @@ struct RecomputedPairs {
       const PairShape<D> shape = pair_shape<D>(kernel, load_each(at.x, slot) - xi, inv_h);
       const Lane open = pair_area(omega, load_each(at.omega.data(), other), shape.slope, per, load_each(at.per_moment.data(), other));
       const Lane area = open * closing<D>(lambda, load_each(at.lambda, slot), shape.n);
-      pair(e, j, coefficient<drying, dragged>(stiffness, area, shape.distance, mine, water.of(other)));
+      pair(e, j, coefficient<drying>(stiffness, area, shape.distance, mine, water.of(other), water.dragged));
     });
   }
   KOKKOS_FORCEINLINE_FUNCTION Lane weighted_sum(const PairView& pairs, int slice, const Field<double>& x) const {
@@ -111,10 +112,7 @@ struct RecomputedPairs {
 };
 
 template <int D>
-using AnyPairs =
-    std::variant<linear::StoredPairs, RecomputedPairs<D, CubicSpline<D>, false, false>, RecomputedPairs<D, CubicSpline<D>, false, true>,
-                 RecomputedPairs<D, CubicSpline<D>, true, false>, RecomputedPairs<D, CubicSpline<D>, true, true>,
-                 RecomputedPairs<D, GeneralKernel<D>, false, false>, RecomputedPairs<D, GeneralKernel<D>, false, true>,
-                 RecomputedPairs<D, GeneralKernel<D>, true, false>, RecomputedPairs<D, GeneralKernel<D>, true, true>>;
+using AnyPairs = std::variant<linear::StoredPairs, RecomputedPairs<D, CubicSpline<D>, false>, RecomputedPairs<D, CubicSpline<D>, true>,
+                              RecomputedPairs<D, GeneralKernel<D>, false>, RecomputedPairs<D, GeneralKernel<D>, true>>;
 
 }  // namespace freshet::sisph

@@ -1,5 +1,7 @@
 #include "kernels/sisph/conservative.hpp"
 
+#include "cellgrid/launch.hpp"
+
 namespace freshet::sisph {
 namespace {
 
@@ -37,7 +39,7 @@ struct Slope {
 template <int D>
 void conservative_slope(const Geometry<D>& g, const SliceList& active, const DepthLevels& depths, const Field<double>& bed,
                         const VecField<double, D>& slope) {
-  Kokkos::parallel_for("sisph::conservative_slope", Range(0, active.count), Slope<D>{g, active, depths, bed, slope});
+  launch("sisph::conservative_slope", Range(0, active.count), Slope<D>{g, active, depths, bed, slope});
 }
 
 template void conservative_slope(const Geometry<1>&, const SliceList&, const DepthLevels&, const Field<double>&, const VecField<double, 1>&);

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "cellgrid/launch.hpp"
+
 namespace freshet::sisph {
 namespace {
 
@@ -32,7 +34,7 @@ Field<int> Followers<D>::leaders(int particles, const Start& start) const {
   const Field<int> id = start.id, kind = start.kind;
   const Vec<double, D> low = start.low, high = start.high;
   const double far = 2 * start.spacing;
-  Kokkos::parallel_for("sisph::find_leaders", Range(0, particles), KOKKOS_LAMBDA(int i) {
+  launch("sisph::find_leaders", Range(0, particles), KOKKOS_LAMBDA(int i) {
         const Vec<double, D> side = clamped(at(x, i), low, high);
         double least = far * far;
         int nearest = -1;
@@ -67,15 +69,15 @@ template <int D>
 void Followers<D>::locate(int particles, const Field<int>& id) {
   if (count_ == 0) return;
   const Field<int> place = place_;
-  Kokkos::parallel_for("sisph::locate", Range(0, particles), KOKKOS_LAMBDA(int i) { place(id(i)) = i; });
+  launch("sisph::locate", Range(0, particles), KOKKOS_LAMBDA(int i) { place(id(i)) = i; });
 }
 
 template <int D>
 void Followers<D>::follow(const VecField<double, D>& v) const {
   if (count_ == 0) return;
   const Field<int> place = place_, follower = follower_, leader = leader_;
-  Kokkos::parallel_for("sisph::follow", Range(0, count_),
-                       KOKKOS_LAMBDA(int k) { put(v, place(follower(k)), at(v, place(leader(k)))); });
+  launch("sisph::follow", Range(0, count_),
+         KOKKOS_LAMBDA(int k) { put(v, place(follower(k)), at(v, place(leader(k)))); });
 }
 
 template class Followers<1>;

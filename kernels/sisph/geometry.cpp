@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "cellgrid/launch.hpp"
+
 namespace freshet::sisph {
 namespace {
 
@@ -66,8 +68,8 @@ void measure_pairs(const Geometry<D>& g, const Shapes<D>& shapes, bool sized) {
   const Range all(0, g.pairs.slices());
   std::visit([&](const auto& k) {
     using Kernel = std::decay_t<decltype(k)>;
-    if (sized) Kokkos::parallel_for("sisph::measure", all, Measure<D, Kernel, true>{g, shapes.h, k});
-    else Kokkos::parallel_for("sisph::measure", all, Measure<D, Kernel, false>{g, shapes.h, k});
+    if (sized) launch("sisph::measure", all, Measure<D, Kernel, true>{g, shapes.h, k});
+    else launch("sisph::measure", all, Measure<D, Kernel, false>{g, shapes.h, k});
   }, shapes.kernel);
 }
 
@@ -89,8 +91,8 @@ struct Areas {
 template <int D>
 void measure_areas(const Geometry<D>& g, const Shapes<D>& shapes) {
   const Range all(0, g.pairs.slices());
-  Kokkos::parallel_for("sisph::moments", all, Moments<D>{g, shapes.held_moment, shapes.linear});
-  Kokkos::parallel_for("sisph::areas", all, Areas<D>{g});
+  launch("sisph::moments", all, Moments<D>{g, shapes.held_moment, shapes.linear});
+  launch("sisph::areas", all, Areas<D>{g});
 }
 
 // omega of free particles scaled to `cell` on average; held ones have just that.
@@ -102,15 +104,15 @@ void scale_areas(const Geometry<D>& g, double cell) {
     return Addends<2>{{free(i) * omega(i), free(i)}};
   });
   const double factor = sum[0] > 0 ? cell * sum[1] / sum[0] : 1;
-  Kokkos::parallel_for("sisph::scale_areas", Range(0, n),
-                       KOKKOS_LAMBDA(int i) { omega(i) = free(i) > 0.5 ? factor * omega(i) : cell; });
+  launch("sisph::scale_areas", Range(0, n),
+         KOKKOS_LAMBDA(int i) { omega(i) = free(i) > 0.5 ? factor * omega(i) : cell; });
 }
 
 template <int D>
 void list_free_slices(Geometry<D>& g, const Field<int>& held) {
   const PairView pairs = g.pairs;
   const Field<double> free = g.free;
-  Kokkos::parallel_for("sisph::mark_free", Range(0, pairs.particles), KOKKOS_LAMBDA(int i) { free(i) = held(i) > 0 ? 0.0 : 1.0; });
+  launch("sisph::mark_free", Range(0, pairs.particles), KOKKOS_LAMBDA(int i) { free(i) = held(i) > 0 ? 0.0 : 1.0; });
   g.slices.list = Field<int>("sisph.slices", static_cast<size_t>(pairs.slices()));
   const Field<int> list = g.slices.list;
   Kokkos::parallel_scan("sisph::list_free", Range(0, pairs.slices()), KOKKOS_LAMBDA(int s, int& count, bool last) {

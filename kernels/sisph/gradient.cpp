@@ -1,5 +1,7 @@
 #include "kernels/sisph/gradient.hpp"
 
+#include "cellgrid/launch.hpp"
+
 namespace freshet::sisph {
 namespace {
 
@@ -109,15 +111,15 @@ void surface_gradient(const Geometry<D>& g, const SliceList& active, const Field
                       const VecField<double, D>& gradient, bool drying) {
   const Range range(0, active.count);
   if (drying)
-    Kokkos::parallel_for("sisph::gradient_drying", range, Drying<D>{g, active, depth, bed, gradient});
+    launch("sisph::gradient_drying", range, Drying<D>{g, active, depth, bed, gradient});
   else
-    Kokkos::parallel_for("sisph::gradient", range, Smooth<D>{g, active, depth, bed, gradient});
+    launch("sisph::gradient", range, Smooth<D>{g, active, depth, bed, gradient});
 }
 
 template <int D>
 void velocity_gradient(const Geometry<D>& g, const SliceList& active, const Water<D>& water, const VelocityGradient<D>& gradient) {
   g.images.fill(water.v);
-  Kokkos::parallel_for("sisph::velocity_gradient", Range(0, active.count), Velocities<D>{g, active, water, gradient});
+  launch("sisph::velocity_gradient", Range(0, active.count), Velocities<D>{g, active, water, gradient});
   g.images.fill_gradient(gradient.u, gradient.v);
 }
 

@@ -1,6 +1,7 @@
 // Mirror images behind walls. An image has the scalars of its source particle and its vectors reflected; they stand in slots
 // behind the particles of every vector field that pairs read, refreshed by fill(). Nothing is launched where no wall is near.
 #pragma once
+#include "cellgrid/launch.hpp"
 #include "cellgrid/vec.hpp"
 
 namespace freshet::sisph {
@@ -19,7 +20,7 @@ struct Images {
   void fill(const VecField<double, D>& v) const {
     if (count == 0) return;
     const Images images = *this;
-    Kokkos::parallel_for("sisph::reflect", Range(0, count), KOKKOS_LAMBDA(int k) {
+    launch("sisph::reflect", Range(0, count), KOKKOS_LAMBDA(int k) {
           put(v, images.first + k, of(images.reflection, k) * at(v, images.source(k)));
         });
   }
@@ -28,15 +29,15 @@ struct Images {
   void fill_opposed(const VecField<double, D>& v) const {
     if (count == 0) return;
     const Images images = *this;
-    Kokkos::parallel_for("sisph::oppose", Range(0, count),
-                         KOKKOS_LAMBDA(int k) { put(v, images.first + k, -1.0 * at(v, images.source(k))); });
+    launch("sisph::oppose", Range(0, count),
+           KOKKOS_LAMBDA(int k) { put(v, images.first + k, -1.0 * at(v, images.source(k))); });
   }
 
   // The gradients of both components of a vector: R (grad v) R.
   void fill_gradient(const VecField<double, D>& of_u, const VecField<double, D>& of_v) const {
     if (count == 0) return;
     const Images images = *this;
-    Kokkos::parallel_for("sisph::reflect_gradient", Range(0, count), KOKKOS_LAMBDA(int k) {
+    launch("sisph::reflect_gradient", Range(0, count), KOKKOS_LAMBDA(int k) {
           reflect(of(images.reflection, k), of_u, of_v, {images.source(k), images.first + k});
         });
   }

@@ -1,5 +1,8 @@
 #include "kernels/sisph/mass_flux.hpp"
 
+#include "cellgrid/assign.hpp"
+#include "cellgrid/launch.hpp"
+
 namespace freshet::sisph {
 namespace {
 
@@ -138,8 +141,8 @@ template <int D>
 MassFlux<D>::MassFlux(const Geometry<D>& g)
     : g_(g), share_("sisph.share", static_cast<size_t>(g.pairs.particles) + lanes),
       slope_share_("sisph.slope_share", static_cast<size_t>(g.pairs.particles) + lanes) {
-  Kokkos::deep_copy(share_, 1.0);
-  Kokkos::deep_copy(slope_share_, 1.0);
+  assign(share_, 1.0);
+  assign(slope_share_, 1.0);
 }
 
 template <int D>
@@ -152,14 +155,14 @@ double MassFlux<D>::least_depth(const SliceList& active, const Water<D>& water, 
 
 template <int D>
 void MassFlux<D>::scale_outflow(const SliceList& active, const FreeSurface<D>& surface) {
-  Kokkos::parallel_for("sisph::scale_outflow", Range(0, active.count), ScaleOutflow<D>{g_, active, surface.flux(), share_});
+  launch("sisph::scale_outflow", Range(0, active.count), ScaleOutflow<D>{g_, active, surface.flux(), share_});
 }
 
 template <int D>
 FluxReport MassFlux<D>::close_depths(const SliceList& active, const Water<D>& water, const FreeSurface<D>& surface, double dt) {
   std::visit([&](const auto& a) {
     const Fluxes<D, std::decay_t<decltype(a)>> pass{g_, active, a, surface.level(), surface.flux(), 1 / dt};
-    Kokkos::parallel_for("sisph::fluxes", Range(0, active.count), pass);
+    launch("sisph::fluxes", Range(0, active.count), pass);
   }, surface.pairs());
   FluxReport report;
   report.limited = least_depth(active, water, surface, dt) < 0;
@@ -182,8 +185,8 @@ FluxReport MassFlux<D>::close_depths(const SliceList& active, const Water<D>& wa
 template <int D>
 void MassFlux<D>::advect(const SliceList& active, const Water<D>& water, const FreeSurface<D>& surface,
                          const VelocityGradient<D>& gradient, double dt, const VecField<double, D>& advected) {
-  Kokkos::parallel_for("sisph::advect", Range(0, active.count),
-                       Advect<D>{g_, active, water, gradient, surface.flux(), surface.depth(), slope_share_, dt, advected});
+  launch("sisph::advect", Range(0, active.count),
+         Advect<D>{g_, active, water, gradient, surface.flux(), surface.depth(), slope_share_, dt, advected});
 }
 
 template class MassFlux<1>;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cellgrid/assign.hpp"
+#include "cellgrid/launch.hpp"
 #include "kernels/sisph/moving_loops.hpp"
 
 namespace freshet::sisph {
@@ -58,7 +60,7 @@ void MovingWater<D>::visit_all(int slices) {
   g_.slices.count = slices;
   if (g_.slices.list.extent_int(0) >= slices) return;
   const Field<int> all("sisph.slices", static_cast<size_t>(slices + slices / 8));
-  Kokkos::parallel_for("sisph::number_slices", Range(0, all.extent_int(0)), KOKKOS_LAMBDA(int s) { all(s) = s; });
+  launch("sisph::number_slices", Range(0, all.extent_int(0)), KOKKOS_LAMBDA(int s) { all(s) = s; });
   g_.slices.list = all;
 }
 
@@ -97,7 +99,7 @@ void MovingWater<D>::start(const Swarm<D>& now) {
   const Swarm<D> at_n = now;
   const VecField<double, D> end = end_;
   const Field<double> last = last_, change = change_, free = g_.free;
-  Kokkos::parallel_for("sisph::start_step", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) {
+  launch("sisph::start_step", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) {
         put(end, i, at(at_n.v, i));
         last(i) = at_n.depth(i);
         change(i) = 0;
@@ -113,7 +115,7 @@ void MovingWater<D>::place(const Swarm<D>& now, const BedSpline<D>* bed, const P
   const Geometry<D> g = g_;
   const VecField<double, D> end = end_;
   const Field<double> last = last_, inertia = inertia_, rise = rise_;
-  Kokkos::parallel_for("sisph::place_midway", Range(0, g.pairs.particles), KOKKOS_LAMBDA(int i) {
+  launch("sisph::place_midway", Range(0, g.pairs.particles), KOKKOS_LAMBDA(int i) {
         const double mid = 0.5 * (at_n.depth(i) + last(i));
         put(g.x, i, at(at_n.x, i) + (0.5 * dt) * (w.half_start * at(at_n.v, i) + w.half_end * at(end, i)));
         g.omega(i) = at_n.mass(i) / mid;
@@ -123,7 +125,7 @@ void MovingWater<D>::place(const Swarm<D>& now, const BedSpline<D>* bed, const P
   if (!bed) return;
   const BedSpline<D> ground = *bed;
   const bool remembers = at_n.before.x.extent(0) > 0;
-  Kokkos::parallel_for("sisph::rise_of_bed", Range(0, g.pairs.particles), KOKKOS_LAMBDA(int i) {
+  launch("sisph::rise_of_bed", Range(0, g.pairs.particles), KOKKOS_LAMBDA(int i) {
         Vec<double, D> to = at(at_n.x, i) + dt * (w.start * at(at_n.v, i) + w.end * at(end, i));
         if (remembers) to += (dt * w.before) * at(at_n.before, i);
         rise(i) = level_at(ground, to) - at_n.bed(i);
@@ -136,7 +138,7 @@ void MovingWater<D>::place_images(const Swarm<D>& now) {
   if (g_.images.count == 0) return;
   const Images<D> images = g_.images;
   const VecField<double, D> from = listed_, x = now.x, to = g_.x;
-  Kokkos::parallel_for("sisph::move_images", Range(0, images.count), KOKKOS_LAMBDA(int k) {
+  launch("sisph::move_images", Range(0, images.count), KOKKOS_LAMBDA(int k) {
         const int slot = images.first + k, j = images.source(k);
         put(to, slot, at(from, slot) + images.of(images.reflection, k) * (at(to, j) - at(x, j)));
       });
@@ -148,7 +150,7 @@ void MovingWater<D>::find_levels(const Swarm<D>& now) {
   const Swarm<D> at_n = now;
   const Field<double> bed = now.bed.extent(0) > 0 ? now.bed : zero_, level = level_, change = change_, rise = rise_, free = g_.free;
   const double theta = options_.theta;
-  Kokkos::parallel_for("sisph::levels", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) {
+  launch("sisph::levels", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) {
         if (free(i) < 0.5) change(i) = rise(i);
         level(i) = bed(i) + at_n.depth(i) + theta * change(i);
       });
@@ -211,7 +213,7 @@ void MovingWater<D>::arrive(const Swarm<D>& now, const BedSpline<D>* bed, const 
   const VecField<double, D> end = end_;
   const Field<double> last = last_, free = g_.free;
   const bool remembers = at_n.before.x.extent(0) > 0;
-  Kokkos::parallel_for("sisph::arrive", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) {
+  launch("sisph::arrive", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) {
         const Vec<double, D> v = at(at_n.v, i);
         Vec<double, D> to = at(at_n.x, i) + dt * (w.start * v + w.end * at(end, i));
         if (remembers) {
@@ -225,8 +227,8 @@ void MovingWater<D>::arrive(const Swarm<D>& now, const BedSpline<D>* bed, const 
   jump_ = tried_;
   if (!bed) return;
   const BedSpline<D> ground = *bed;
-  Kokkos::parallel_for("sisph::find_bed", Range(0, g_.pairs.particles),
-                       KOKKOS_LAMBDA(int i) { at_n.bed(i) = level_at(ground, at(at_n.x, i)); });
+  launch("sisph::find_bed", Range(0, g_.pairs.particles),
+         KOKKOS_LAMBDA(int i) { at_n.bed(i) = level_at(ground, at(at_n.x, i)); });
 }
 
 template class MovingWater<1>;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cellgrid/launch.hpp"
 #include "kernels/linear/pair_product.hpp"
 #include "kernels/sisph/moving_loops.hpp"
 
@@ -9,8 +10,8 @@ namespace freshet::sisph {
 
 template <int D>
 void MovingWater<D>::predict(const Swarm<D>& now, double dt) {
-  Kokkos::parallel_for("sisph::predict", Range(0, g_.slices.count),
-                       Predict<D>{g_, level_, now.drag, now.v, slope_, mixed_, options_.gravity * dt, options_.theta});
+  launch("sisph::predict", Range(0, g_.slices.count),
+         Predict<D>{g_, level_, now.drag, now.v, slope_, mixed_, options_.gravity * dt, options_.theta});
   followers_.follow(mixed_);
   g_.images.fill(mixed_);
   g_.images.fill(slope_);
@@ -26,7 +27,7 @@ void MovingWater<D>::lay_mesh(double stiffness) {
   laid_ = true;
   const Geometry<D> g = g_;
   const Field<double> inertia = inertia_, mass = mesh_mass_, depth = mesh_depth_;
-  Kokkos::parallel_for("sisph::mesh_rows", Range(0, g.pairs.particles), KOKKOS_LAMBDA(int i) {
+  launch("sisph::mesh_rows", Range(0, g.pairs.particles), KOKKOS_LAMBDA(int i) {
         mass(i) = g.free(i) * inertia(i);
         depth(i) = g.omega(i) / inertia(i);
       });
@@ -80,9 +81,9 @@ void MovingWater<D>::solve_increment(const Swarm<D>& now, double dt, MovingRepor
 
 template <int D>
 void MovingWater<D>::correct(const Swarm<D>& now, double dt) {
-  Kokkos::parallel_for("sisph::correct", Range(0, g_.slices.count),
-                       Correct<D>{g_, correction_, change_, now.depth, rise_, last_, now.drag, slope_, now.v, end_, options_.gravity * dt,
-                                  options_.theta});
+  launch("sisph::correct", Range(0, g_.slices.count),
+         Correct<D>{g_, correction_, change_, now.depth, rise_, last_, now.drag, slope_, now.v, end_, options_.gravity * dt,
+                    options_.theta});
   followers_.follow(end_);
 }
 
@@ -90,8 +91,8 @@ void MovingWater<D>::correct(const Swarm<D>& now, double dt) {
 template <int D>
 void MovingWater<D>::even_out(double dt) {
   velocity_gradient<D>(g_, g_.slices, {last_, zero_, end_}, gradient_);
-  Kokkos::parallel_for("sisph::even_out", Range(0, g_.slices.count),
-                       Even<D>{g_, end_, mixed_, gradient_, dt / options_.spacing});
+  launch("sisph::even_out", Range(0, g_.slices.count),
+         Even<D>{g_, end_, mixed_, gradient_, dt / options_.spacing});
   std::swap(end_, mixed_);
   followers_.follow(end_);
 }

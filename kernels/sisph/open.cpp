@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cellgrid/assign.hpp"
+#include "cellgrid/launch.hpp"
 #include "kernels/sisph/open_fit.hpp"
 
 namespace freshet::sisph {
@@ -70,7 +72,7 @@ template <class T>
 void copy_in(const std::vector<T>& values, const Field<T>& field) {
   const auto host = Kokkos::create_mirror_view(field);
   for (std::size_t k = 0; k < values.size(); ++k) host(k) = values[k];
-  Kokkos::deep_copy(field, host);
+  assign(field, host);
 }
 
 // m, what the surface falls by friction between the line and a place behind it, outwards; no more than a fifth of the depth.
@@ -114,8 +116,8 @@ OpenRim<D>::OpenRim(std::vector<LawInTime> laws, const std::vector<RimPlace<D>>&
 // The laws are host code: a rim has few particles.
 template <int D>
 void OpenRim<D>::find(const TracedWater<D>& traced, double t, double dt) {
-  Kokkos::parallel_for("sisph::trace_back", Range(0, count_),
-                       TraceBack<D>{{traced}, particle_, n_, foot_v_, foot_depth_, foot_out_, dt});
+  launch("sisph::trace_back", Range(0, count_),
+         TraceBack<D>{{traced}, particle_, n_, foot_v_, foot_depth_, foot_out_, dt});
   const auto foot_depth = on_host(foot_depth_), foot_out = on_host(foot_out_);
   const std::vector<double> depths(foot_depth.data(), foot_depth.data() + count_);
   std::vector<std::vector<double>> share;
@@ -189,7 +191,7 @@ template <int D>
 void OpenRim<D>::turn_velocities() {
   const VecField<double, D> n = n_, foot = foot_v_, velocity = velocity_;
   const Field<double> out = foot_out_;
-  Kokkos::parallel_for("sisph::turn", Range(0, count_), KOKKOS_LAMBDA(int k) {
+  launch("sisph::turn", Range(0, count_), KOKKOS_LAMBDA(int k) {
         const Vec<double, D> across = at(n, k), at_foot = at(foot, k);
         const Vec<double, D> along = at_foot - dot(at_foot, across) * across;
         put(velocity, k, out(k) * across + (out(k) > 0 ? 1.0 : 0.0) * along);
@@ -200,7 +202,7 @@ template <int D>
 void OpenRim<D>::impose(const Field<double>& bed, const Field<double>& level, const Field<double>& depth) const {
   const Field<int> particle = particle_;
   const Field<double> found = depth_;
-  Kokkos::parallel_for("sisph::impose_rim", Range(0, count_), KOKKOS_LAMBDA(int k) {
+  launch("sisph::impose_rim", Range(0, count_), KOKKOS_LAMBDA(int k) {
         const int i = particle(k);
         depth(i) = found(k);
         level(i) = bed(i) + found(k);
@@ -209,7 +211,7 @@ void OpenRim<D>::impose(const Field<double>& bed, const Field<double>& level, co
 
 template <int D>
 void OpenRim<D>::extend(const TracedWater<D>& traced, const VecField<double, D>& slope) const {
-  Kokkos::parallel_for("sisph::rim_slope", Range(0, count_), RimSlope<D>{{traced}, particle_, slope});
+  launch("sisph::rim_slope", Range(0, count_), RimSlope<D>{{traced}, particle_, slope});
 }
 
 template <int D>
@@ -218,7 +220,7 @@ void OpenRim<D>::set_before(const RimPush<D>& push, const VecField<double, D>& b
   const VecField<double, D> next = velocity_, to = before;
   const RimPush<D> by = push;
   const bool dragged = push.drag.extent(0) > 0;
-  Kokkos::parallel_for("sisph::rim_before", Range(0, count_), KOKKOS_LAMBDA(int k) {
+  launch("sisph::rim_before", Range(0, count_), KOKKOS_LAMBDA(int k) {
         const int i = particle(k);
         const double per = dragged ? 1 / (1 + by.drag(i)) : 1.0;
         put(to, i, by.theta * (at(next, k) + (by.impulse * per) * at(by.slope, i)) + (1 - by.theta) * at(by.v, i));
@@ -229,7 +231,7 @@ template <int D>
 void OpenRim<D>::set_end(const VecField<double, D>& end) const {
   const Field<int> particle = particle_;
   const VecField<double, D> next = velocity_, to = end;
-  Kokkos::parallel_for("sisph::rim_end", Range(0, count_), KOKKOS_LAMBDA(int k) { put(to, particle(k), at(next, k)); });
+  launch("sisph::rim_end", Range(0, count_), KOKKOS_LAMBDA(int k) { put(to, particle(k), at(next, k)); });
 }
 
 template class OpenRim<1>;

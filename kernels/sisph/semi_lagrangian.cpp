@@ -1,5 +1,7 @@
 #include "kernels/sisph/semi_lagrangian.hpp"
 
+#include "cellgrid/launch.hpp"
+
 namespace freshet::sisph {
 namespace {
 
@@ -219,8 +221,8 @@ SemiLagrangian<D>::SemiLagrangian(const Geometry<D>& g, const Rows& rows, double
       mean_("sisph.fit_mean", static_cast<size_t>(terms + 1) * static_cast<size_t>(stride_)),
       own2_("sisph.own2", static_cast<size_t>(stride_)),
       fitted_("sisph.fitted", static_cast<size_t>(2 * D * (terms + 1)) * static_cast<size_t>(stride_)) {
-  Kokkos::parallel_for("sisph::fit_moments", Range(0, g.slices.count),
-                       FitMoments<D>{g, 1 / spacing, 1 / support, stride_, inverse_, mean_, own2_});
+  launch("sisph::fit_moments", Range(0, g.slices.count),
+         FitMoments<D>{g, 1 / spacing, 1 / support, stride_, inverse_, mean_, own2_});
 }
 
 template <int D>
@@ -229,15 +231,15 @@ void SemiLagrangian<D>::fit(const VecField<double, D>& v, const VecField<double,
     if (slip) g_.images.fill(field);
     else g_.images.fill_opposed(field);
   }
-  Kokkos::parallel_for("sisph::fit", Range(0, g_.slices.count),
-                       Fit<D>{g_, 1 / spacing_, 1 / support_, stride_, inverse_, mean_, v, u, fitted_});
+  launch("sisph::fit", Range(0, g_.slices.count),
+         Fit<D>{g_, 1 / spacing_, 1 / support_, stride_, inverse_, mean_, v, u, fitted_});
 }
 
 template <int D>
 void SemiLagrangian<D>::trace(const VecField<double, D>& v, const VecField<double, D>& u, const VecField<double, D>& last, double dt,
                               const VecField<double, D>& carried) const {
-  Kokkos::parallel_for("sisph::trace", Range(0, g_.slices.count),
-                       Trace<D>{g_, rows_, spacing_, dt, stride_, own2_, fitted_, v, u, last, carried});
+  launch("sisph::trace", Range(0, g_.slices.count),
+         Trace<D>{g_, rows_, spacing_, dt, stride_, own2_, fitted_, v, u, last, carried});
 }
 
 template class SemiLagrangian<1>;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "cellgrid/launch.hpp"
 #include "kernels/sisph/surface_loops.hpp"
 
 namespace freshet::sisph {
@@ -32,14 +33,14 @@ void FreeSurface<D>::take_source(const PairSource<D>& source) {
   places_.lambda = parts(lambda, slots, Vec<double, D>{});
   places_.omega = g_.omega;
   const Field<double> moment = g_.moment, per = places_.per_moment;
-  Kokkos::parallel_for("sisph::per_moment", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) { per(i) = 1.0 / moment(i); });
+  launch("sisph::per_moment", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) { per(i) = 1.0 / moment(i); });
 }
 
 // What coefficients that are not stored need of a pass: depths change while it is solved.
 template <int D>
 void FreeSurface<D>::hold_depths(const Water<D>& water, bool drying) {
   const Field<double> now = water.depth, last = depth_, held_depth = held_depth_, held_last = held_last_;
-  Kokkos::parallel_for("sisph::hold_depths", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) {
+  launch("sisph::hold_depths", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) {
         const double before = larger(last(i), 0.0);
         held_depth(i) = drying ? now(i) : 0.5 * (now(i) + before);
         held_last(i) = before;
@@ -47,11 +48,11 @@ void FreeSurface<D>::hold_depths(const Water<D>& water, bool drying) {
 }
 
 template <int D>
-template <bool drying, bool dragged>
+template <bool drying>
 AnyPairs<D> FreeSurface<D>::recomputed(const Water<D>& water, double stiffness) const {
-  const Holdings<drying, dragged> held{held_depth_, held_last_, water.bed, drag_};
+  const Holdings<drying> held{held_depth_, held_last_, water.bed, drag_, drag_.extent(0) > 0};
   return std::visit([&](const auto& kernel) -> AnyPairs<D> {
-    return RecomputedPairs<D, std::decay_t<decltype(kernel)>, drying, dragged>{kernel, places_, held, stiffness};
+    return RecomputedPairs<D, std::decay_t<decltype(kernel)>, drying>{kernel, places_, held, stiffness};
   }, *kernel_);
 }
 
@@ -75,7 +76,7 @@ void FreeSurface<D>::start(const Water<D>& water) {
   const Field<double> level = level_, depth = depth_, residual = residual_, inverse = inverse_, share = share_;
   const Water<D> w = water;
   first_ = true;
-  Kokkos::parallel_for("sisph::start_surface", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) {
+  launch("sisph::start_surface", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) {
         depth(i) = w.depth(i);
         level(i) = w.bed(i) + w.depth(i);
         residual(i) = 0;
@@ -85,20 +86,20 @@ void FreeSurface<D>::start(const Water<D>& water) {
 }
 
 template <int D>
-template <bool drying, bool dragged>
+template <bool drying>
 typename FreeSurface<D>::Norms FreeSurface<D>::find_coefficients(const SliceList& active, const Water<D>& water,
                                                                  const VecField<double, D>& before, double dt) {
   const double stiffness = options_.gravity * options_.theta * options_.theta * dt * dt;
   g_.images.fill(before);
   const auto visit = [&](const auto& stored, const Field<double>& a) {
-    const Coefficients<D, drying, dragged, std::decay_t<decltype(stored)>::value> pass{
-        g_,    active,    water,  before, depth_,    level_, drag_,           a, flux_,
-        right_, residual_, row_sum_, share_, stiffness, dt,     options_.gravity};
+    const Coefficients<D, drying, std::decay_t<decltype(stored)>::value> pass{
+        g_,     active,    water,    before, depth_,     level_, drag_,            a, flux_,
+        right_, residual_, row_sum_, share_, stiffness, dt,     options_.gravity, drag_.extent(0) > 0};
     return sum_of_slices<3>("sisph::coefficients", active.count, pass);
   };
   if (kernel_) {
     hold_depths(water, drying);
-    pairs_ = recomputed<drying, dragged>(water, stiffness);
+    pairs_ = recomputed<drying>(water, stiffness);
   }
   const auto sums = kernel_ ? visit(std::false_type{}, {}) : visit(std::true_type{}, std::get<linear::StoredPairs>(pairs_).a);
   if (!drying || sums[2] == 0) return {std::sqrt(sums[0]), std::sqrt(sums[1])};
@@ -120,7 +121,7 @@ template <int D>
 void FreeSurface<D>::set_diagonal(const SliceList& active, const Water<D>& water, bool all_wet) {
   const Geometry<D> g = g_;
   const Field<double> level = level_, bed = water.bed, row_sum = row_sum_, diagonal = diagonal_, inverse = inverse_;
-  Kokkos::parallel_for("sisph::diagonal", Range(0, active.count), KOKKOS_LAMBDA(int k) {
+  launch("sisph::diagonal", Range(0, active.count), KOKKOS_LAMBDA(int k) {
         const Lanes me = g.pairs(active(k));
         const Lane wet = select(me.load(bed) < me.load(level), Lane(1.0), Lane(all_wet ? 1.0 : 0.0));
         const Lane sum = me.load(row_sum) + wet * me.load(g.omega);
@@ -137,7 +138,7 @@ void FreeSurface<D>::set_mesh(const SliceList& active, const Water<D>& water, do
   const Field<double> level = level_, bed = water.bed, depth = depth_, drag = drag_, wet = wet_, conducts = mesh_depth_;
   const bool dragged = drag.extent(0) > 0;
   linear::fill(g_.pairs.particles, 0.0, wet_);
-  Kokkos::parallel_for("sisph::mesh_rows", Range(0, active.count), KOKKOS_LAMBDA(int k) {
+  launch("sisph::mesh_rows", Range(0, active.count), KOKKOS_LAMBDA(int k) {
         const Lanes me = g.pairs(list(k));
         Lane deep = larger(me.load(depth), Lane(0.0));
         if (dragged) deep = deep / (1.0 + me.load(drag));
@@ -168,12 +169,12 @@ template <int D>
 void FreeSurface<D>::level_rows(const SliceList& active, const Water<D>& water) {
   std::visit([&](const auto& a) {
     const LevelAlone<D, std::decay_t<decltype(a)>> pass{g_, active, a, level_, water.bed, right_, row_sum_, change_};
-    Kokkos::parallel_for("sisph::level_alone", Range(0, active.count), pass);
+    launch("sisph::level_alone", Range(0, active.count), pass);
   }, pairs_);
   const PairView pairs = g_.pairs;
   const Field<double> level = level_, found = change_;
   const SliceList list = active;
-  Kokkos::parallel_for("sisph::take_level", Range(0, active.count), KOKKOS_LAMBDA(int k) {
+  launch("sisph::take_level", Range(0, active.count), KOKKOS_LAMBDA(int k) {
         const Lanes me = pairs(list(k));
         me.store(level, me.load(found));
       });
@@ -183,11 +184,7 @@ template <int D>
 SurfaceReport FreeSurface<D>::solve(const SliceList& active, const Water<D>& water, const VecField<double, D>& before, double dt,
                                     bool drying) {
   const Region region("sisph::free_surface");
-  const bool dragged = drag_.extent(0) > 0;
-  const Norms norms = drying ? dragged ? find_coefficients<true, true>(active, water, before, dt)
-                                       : find_coefficients<true, false>(active, water, before, dt)
-                      : dragged ? find_coefficients<false, true>(active, water, before, dt)
-                                : find_coefficients<false, false>(active, water, before, dt);
+  const Norms norms = drying ? find_coefficients<true>(active, water, before, dt) : find_coefficients<false>(active, water, before, dt);
   // Asked for no less than round-off of |b|: water at rest needs no iteration.
   constexpr double round_off = 1e-14;
   const double least = round_off / smaller(options_.cg_tolerance, options_.newton_tolerance);
@@ -210,7 +207,7 @@ SurfaceReport FreeSurface<D>::solve(const SliceList& active, const Water<D>& wat
     if (iterations > options_.mesh_from || (mesh_on_ && first_solve)) set_meshed(iterations > options_.mesh_until);
     first_solve = false;
     ++report.newton;
-    Kokkos::parallel_for("sisph::move_surface", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) { level(i) += change(i); });
+    launch("sisph::move_surface", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) { level(i) += change(i); });
     report.residual = find_residual(active, water) / scale;
     if (report.residual <= settled) return report;
     if (!drying) continue;

@@ -82,9 +82,9 @@ class FreeSurface {
   struct Norms {
     double residual, right;
   };
-  template <bool drying, bool dragged>
+  template <bool drying>
   Norms find_coefficients(const SliceList& active, const Water<D>& water, const VecField<double, D>& before, double dt);
-  template <bool drying, bool dragged>
+  template <bool drying>
   AnyPairs<D> recomputed(const Water<D>& water, double stiffness) const;
   double find_residual(const SliceList& active, const Water<D>& water);
   int solve_linear(const SliceList& active, const Water<D>& water, const linear::CgOptions& options, double stiffness);

@@ -15,16 +15,17 @@ KOKKOS_FORCEINLINE_FUNCTION Lane run_up_depth(Lane depth, Lane bed, Lane dry_bed
 
 // a, f, b, the row sums, the residual of the iterate and the share of its outflow f that a particle has water for; returns the
 // slice's parts of |r|^2 and |b|^2, and how many of its particles would give more than they have. a is written where it is stored.
-template <int D, bool drying, bool dragged, bool stored>
+template <int D, bool drying, bool stored>
 struct Coefficients {
   Geometry<D> g;
   SliceList active;
   Water<D> water;
   VecField<double, D> before;
   Field<double> last_depth, level;                 // of the Picard pass before
-  Field<double> drag;                              // dt gamma
+  Field<double> drag;                              // dt gamma; empty unless dragged
   Field<double> a, flux, right, residual, row_sum, share;  // written
   double stiffness, dt, gravity;                   // g theta^2 dt^2
+  bool dragged;
 
   // The depth that f is carried in, vn its velocity from i to j.
   KOKKOS_FORCEINLINE_FUNCTION Lane carried_depth(Lane hi, Lane hj, Lane bi, Lane bj, Lane vn) const {
@@ -55,7 +56,7 @@ struct Coefficients {
       const Lane vn = dot(pair_velocity(vi, gather(before, index), i.depth + i.last, j.depth + j.last), PairView::load(g.n, e));
       const Lane carried = 0.5 * (carried_depth(i.depth, j.depth, i.bed, j.bed, vn) + carried_depth(i.last, j.last, i.bed, j.bed, vn));
       const Lane area = PairView::load(g.area, e), f = area * carried * vn;
-      const Lane aij = coefficient<drying, dragged>(stiffness, area, PairView::load(g.distance, e), i, j);
+      const Lane aij = coefficient<drying>(stiffness, area, PairView::load(g.distance, e), i, j, dragged);
       PairView::store(flux, e, f);
       if constexpr (stored) PairView::store(a, e, aij);
       outflow += f;

@@ -1,5 +1,6 @@
 #include "kernels/sisph/viscosity.hpp"
 
+#include "cellgrid/launch.hpp"
 #include "kernels/sisph/parts.hpp"
 
 namespace freshet::sisph {
@@ -87,9 +88,9 @@ int Viscosity<D>::find(const Water<D>& water, const Field<double>& drag, const V
   const Region region("sisph::viscosity");
   const Vec<double, D> like;
   fill_images(g_.images, predicted, options_.slip);
-  Kokkos::parallel_for("sisph::viscous_pulls", Range(0, g_.slices.count),
-                       Pulls<D>{g_, water.depth, drag, predicted, options_.viscosity * dt, pull_, mass_, parts(right_, stride_, like),
-                                parts(inverse_, stride_, like)});
+  launch("sisph::viscous_pulls", Range(0, g_.slices.count),
+         Pulls<D>{g_, water.depth, drag, predicted, options_.viscosity * dt, pull_, mass_, parts(right_, stride_, like),
+                  parts(inverse_, stride_, like)});
   const auto product = [&](const Field<double>& x, const Field<double>& y) {
     fill_images(g_.images, parts(x, stride_, like), options_.slip);
     return sum_of_slices<1>("sisph::viscous_product", g_.slices.count,
@@ -106,7 +107,7 @@ void Viscosity<D>::add(const Field<double>& drag, const VecField<double, D>& to)
   const VecField<double, D> change = parts(change_, stride_, Vec<double, D>{}), v = to;
   const Field<double> gamma = drag;
   const bool dragged = gamma.extent(0) > 0;
-  Kokkos::parallel_for("sisph::add_viscous", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) {
+  launch("sisph::add_viscous", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) {
         put(v, i, at(v, i) + (dragged ? 1 + gamma(i) : 1.0) * at(change, i));
       });
 }

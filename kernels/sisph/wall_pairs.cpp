@@ -1,4 +1,5 @@
 // Which pairs of particles walls part, and which have images.
+#include "cellgrid/launch.hpp"
 #include "kernels/sisph/walls.hpp"
 
 namespace freshet::sisph {
@@ -62,7 +63,7 @@ template <int D>
 int count_images(int particles, const WallPairs<D>& visit) {
   const Field<int> first = visit.first;
   int count = 0;
-  Kokkos::parallel_for("sisph::count_images", Range(0, particles), KOKKOS_LAMBDA(int i) {
+  launch("sisph::count_images", Range(0, particles), KOKKOS_LAMBDA(int i) {
         int n = 0;
         if (visit.near_wall(i)) visit.for_each_image(i, [&](int, const Vec<double, D>&, const Sym<double, D>&) { ++n; });
         first(i) = n;
@@ -92,7 +93,7 @@ void list_wall_pairs(int particles, const PairRequest<D>& request, const MirrorW
     images.reflection = symmetric(room, Vec<double, D>{});
   }
   const Images<D> found = images;
-  Kokkos::parallel_for("sisph::list_images", Range(0, particles), KOKKOS_LAMBDA(int i) {
+  launch("sisph::list_images", Range(0, particles), KOKKOS_LAMBDA(int i) {
         if (!visit.near_wall(i)) return;
         int k = visit.first(i) - found.first;
         visit.for_each_image(i, [&](int j, const Vec<double, D>&, const Sym<double, D>& r) {
@@ -108,10 +109,10 @@ VecField<double, D> place_images(int particles, const PairRequest<D>& request, c
   if (images.count == 0) return request.x;
   if (lists.x.x.extent_int(0) < images.slots() + lanes) lists.x = vectors(roomy(lists.x.x.extent(0), images.slots()) + lanes, Vec<double, D>{});
   const VecField<double, D> from = request.x, to = lists.x;
-  Kokkos::parallel_for("sisph::copy_places", Range(0, particles), KOKKOS_LAMBDA(int i) { freshet::put(to, i, at(from, i)); });
+  launch("sisph::copy_places", Range(0, particles), KOKKOS_LAMBDA(int i) { freshet::put(to, i, at(from, i)); });
   // Each image stands where the pair that it belongs to sees it: in the order in which they were listed.
   const WallPairs<D> visit{Nearby<D>(request), walls, lists.first};
-  Kokkos::parallel_for("sisph::place_images", Range(0, particles), KOKKOS_LAMBDA(int i) {
+  launch("sisph::place_images", Range(0, particles), KOKKOS_LAMBDA(int i) {
         if (!visit.near_wall(i)) return;
         int slot = visit.first(i);
         visit.for_each_image(i, [&](int, const Vec<double, D>& image, const Sym<double, D>&) { freshet::put(to, slot++, image); });

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <string>
 
+#include "cellgrid/assign.hpp"
+
 namespace freshet::sisph {
 namespace {
 
@@ -111,7 +113,7 @@ Field<T> to_device(const std::string& label, const std::vector<T>& values) {
   const Field<T> field(label, values.size());
   const auto host = Kokkos::create_mirror_view(field);
   for (std::size_t k = 0; k < values.size(); ++k) host(k) = values[k];
-  Kokkos::deep_copy(field, host);
+  assign(field, host);
   return field;
 }
 

@@ -151,8 +151,8 @@ void calibrate_density(const AnyKernel<D>& kernel, const ClusterSet& clusters, c
   std::visit(
       [&](const auto& k) {
         using K = std::decay_t<decltype(k)>;
-        Kokkos::parallel_for("swe::calibrate", Range(0, clusters.size()),
-                             Calibrate<D, K>{{k, clusters, near, walls, p}, calibration});
+        launch("swe::calibrate", Range(0, clusters.size()),
+               Calibrate<D, K>{{k, clusters, near, walls, p}, calibration});
       },
       kernel);
 }

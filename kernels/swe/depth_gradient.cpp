@@ -1,5 +1,6 @@
 #include "kernels/swe/depth_gradient.hpp"
 
+#include "cellgrid/launch.hpp"
 #include "kernels/swe/least_squares.hpp"
 
 namespace freshet::swe {
@@ -35,8 +36,8 @@ template <int D>
 void find_depth_gradient(const AnyKernel<D>& kernel, const ClusterSet& clusters, const NeighbourView& near, const Particles<D>& p) {
   std::visit(
       [&](const auto& k) {
-        Kokkos::parallel_for("swe::depth_gradient", Range(0, clusters.size()),
-                             DepthGradient<D, std::decay_t<decltype(k)>>{k, clusters, near, p});
+        launch("swe::depth_gradient", Range(0, clusters.size()),
+               DepthGradient<D, std::decay_t<decltype(k)>>{k, clusters, near, p});
       },
       kernel);
 }

@@ -191,8 +191,8 @@ void sum_force(const ForceRequest<D>& request) {
   std::visit(
       [&](const auto& k, const auto& stabilise) {
         using Force = InternalForce<D, std::decay_t<decltype(k)>, std::decay_t<decltype(stabilise)>, single>;
-        Kokkos::parallel_for("swe::force", balanced(request.clusters.size()),
-                             Force{k, request.clusters, request.near, request.walls, request.p, stabilise});
+        launch("swe::force", balanced(request.clusters.size()),
+               Force{k, request.clusters, request.near, request.walls, request.p, stabilise});
       },
       request.kernel, request.stabilisation);
 }

@@ -1,4 +1,5 @@
 // Refinement: merging.
+#include "cellgrid/launch.hpp"
 #include "kernels/swe/refinement.hpp"
 
 namespace freshet::swe {
@@ -42,11 +43,11 @@ void Refinement<D>::choose_partners(const Particles<D>& p, int n, const Field<in
   const double reach = 0.5 * merge_->reach;
   const ClusterSet sets = clusters;
   const NeighbourView neighbours = near;
-  Kokkos::parallel_for("merge::eligible", Range(0, n), KOKKOS_LAMBDA(int i) {
+  launch("merge::eligible", Range(0, n), KOKKOS_LAMBDA(int i) {
         const bool small = p.id(i) >= 0 && !(open && kind(i) != 0) && p.m(i) < limit(at(p.x, i)) * p.rho(i);
         area(i) = small ? p.m(i) / p.rho(i) : never;
       });
-  Kokkos::parallel_for("merge::choose", Range(0, clusters.size()), KOKKOS_LAMBDA(int c) {
+  launch("merge::choose", Range(0, clusters.size()), KOKKOS_LAMBDA(int c) {
         const Lanes me = sets(c);
         for (int i = me.first; i < me.first + me.count; ++i) {
           partner(i) = -1;

@@ -1,5 +1,6 @@
 #include "kernels/swe/motion.hpp"
 
+#include "cellgrid/launch.hpp"
 
 namespace freshet::swe {
 namespace {
@@ -40,7 +41,7 @@ void kick_and_drift(const Particles<D>& p, const MotionOptions<D>& options, int 
   const bool friction = options.friction.has_value();
   const ImposedLanes imposed = options.imposed;
   const Field<double> drag_field = options.drag;
-  Kokkos::parallel_for("swe::kick_and_drift", Range(0, blocks(n)), KOKKOS_LAMBDA(int b) {
+  launch("swe::kick_and_drift", Range(0, blocks(n)), KOKKOS_LAMBDA(int b) {
         const Lanes me = block(b, n);
         const Lane moved = imposed(me), half_dt = 0.5 * dt;
         const Vec<Lane, D> half_kick = half_dt * me.load(f.a);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cellgrid/launch.hpp"
 #include "kernels/ids.hpp"
 #include "kernels/swe/open_exterior.hpp"
 
@@ -23,8 +24,8 @@ constexpr double most_wedge = 4;  // x the buffer's depth: sharper mitres are cu
 template <int D>
 KOKKOS_FORCEINLINE_FUNCTION void bounce(const Particles<D>& f, int i, double inside, const Vec<double, D>& inward) {
   put(f.x, i, at(f.x, i) + (-2 * inside) * inward);
-  const VecField<double, D> velocities[2] = {f.v, f.v_pred};
-  for (const VecField<double, D>& v : velocities) put(v, i, at(v, i) + (-2 * smaller(dot(at(v, i), inward), 0.0)) * inward);
+  const VecField<double, D>* const velocities[2] = {&f.v, &f.v_pred};  // not copies: those are counted
+  for (const auto* v : velocities) put(*v, i, at(*v, i) + (-2 * smaller(dot(at(*v, i), inward), 0.0)) * inward);
 }
 
 // Rows beyond an end that a widening buffer needs.
@@ -78,7 +79,7 @@ void OpenBuffer<D>::survey(const std::optional<Bed<D>>& bed) {
   const auto row = row_;
   const Frame at_line = frame();
   const std::optional<Bed<D>> ground = bed;
-  Kokkos::parallel_for("open::survey", Range(0, total_), KOKKOS_LAMBDA(int r) {
+  launch("open::survey", Range(0, total_), KOKKOS_LAMBDA(int r) {
         const int nearest = smaller(larger(r, at_line.before), at_line.before + at_line.count - 1);
         row(r).bed = bed_at<D>(ground, at_line.point(nearest, 0));
       });
@@ -106,7 +107,7 @@ void OpenBuffer<D>::observe(const Rows& rows, const Particles<D>& p, const Field
   const Particles<D> f = p;
   const double summed = options_.summed;
   const std::optional<Friction> friction = options_.friction;
-  Kokkos::parallel_for("open::observe", Range(before_, before_ + count_), KOKKOS_LAMBDA(int r) {
+  launch("open::observe", Range(before_, before_ + count_), KOKKOS_LAMBDA(int r) {
         const Vec<double, D> here = at_line.point(r, 0);
         const double bed_on_line = row(r).bed;
         double y = 0;
@@ -209,12 +210,12 @@ int OpenBuffer<D>::count_room(const FieldSet& particles, const VecField<double, 
   const Field<double> farthest = farthest_, nearest = nearest_;
   const double dx = options_.spacing;
   constexpr double none = 1e300;
-  Kokkos::parallel_for("open::start_rows", Range(0, total), KOKKOS_LAMBDA(int r) {
+  launch("open::start_rows", Range(0, total), KOKKOS_LAMBDA(int r) {
         farthest(r) = extent(r).from - 0.5 * dx;
         nearest(r) = none;
       });
   const int n = particles.size();
-  Kokkos::parallel_for("open::edges", Range(0, blocks(n)), KOKKOS_LAMBDA(int b) {
+  launch("open::edges", Range(0, blocks(n)), KOKKOS_LAMBDA(int b) {
         const Lanes me = block(b, n);
         if (!any(owned_by(owner, me.load(kind)))) return;
         for (int i = me.first; i < me.first + me.count; ++i) {
@@ -255,7 +256,7 @@ void OpenBuffer<D>::insert(FieldSet& particles, const Bind<D>& bind, const std::
   const Exterior<D> exterior{bed, options_.friction, least_depth()};
   const double area = D == 1 ? dx : dx * width_, h = options_.eta * (D == 1 ? area : root(area)), summed = options_.summed;
   const int first_id = take_ids(next_id, added);
-  Kokkos::parallel_for("open::insert", Range(0, total), KOKKOS_LAMBDA(int r) {
+  launch("open::insert", Range(0, total), KOKKOS_LAMBDA(int r) {
         for (int k = room(r); k < room(r + 1); ++k) {
           const int i = n + k, turn = k - room(r), outer = turn - inner_room(r);
           const double outside = outer < 0 ? nearest(r) - (turn + 1) * dx : farthest(r) + (outer + 1) * dx;

@@ -1,4 +1,5 @@
 // Refinement: the smoothing length follows the mass of the particles around.
+#include "cellgrid/launch.hpp"
 #include "kernels/swe/refinement.hpp"
 
 namespace freshet::swe {
@@ -43,8 +44,8 @@ struct Relax {
 template <int D>
 void Refinement<D>::relax(const ClusterSet& clusters, const NeighbourView& near, const Particles<D>& p, const Field<int>& kind,
                           double dt) const {
-  Kokkos::parallel_for("refine::relax", Range(0, clusters.size()),
-                       Relax<D>{clusters, near, p, {kind}, relax_.gravity, power<D>(relax_.eta), relax_.time, relax_.longest, dt});
+  launch("refine::relax", Range(0, clusters.size()),
+         Relax<D>{clusters, near, p, {kind}, relax_.gravity, power<D>(relax_.eta), relax_.time, relax_.longest, dt});
 }
 
 template void Refinement<1>::relax(const ClusterSet&, const NeighbourView&, const Particles<1>&, const Field<int>&, double) const;

@@ -1,5 +1,7 @@
 #include "kernels/swe/single.hpp"
 
+#include "cellgrid/launch.hpp"
+
 namespace freshet::swe {
 namespace {
 
@@ -47,7 +49,7 @@ struct CopyState {
 
 template <int D>
 void copy_motion(const Particles<D>& p, int size) {
-  Kokkos::parallel_for("swe::copy_motion", Range(0, size), KOKKOS_LAMBDA(int i) {
+  launch("swe::copy_motion", Range(0, size), KOKKOS_LAMBDA(int i) {
     SingleRecord<4>& to = p.single.motion(i);
     put_pair(to, 0, at(p.v_pred, i));
     to.value[2] = single(p.m(i));
@@ -57,7 +59,7 @@ void copy_motion(const Particles<D>& p, int size) {
 template <int D>
 void copy_state(const Particles<D>& p, int size) {
   const bool strain = p.strain.xx.extent(0) > 0, depth_slope = p.depth_slope.x.extent(0) > 0;
-  Kokkos::parallel_for("swe::copy_state", Range(0, size), CopyState<D>{p, strain, depth_slope});
+  launch("swe::copy_state", Range(0, size), CopyState<D>{p, strain, depth_slope});
 }
 
 template void copy_motion<1>(const Particles<1>&, int);

@@ -1,4 +1,6 @@
 // Refinement: splitting.
+#include "cellgrid/assign.hpp"
+#include "cellgrid/launch.hpp"
 #include "kernels/swe/refinement.hpp"
 
 #include <Kokkos_Sort.hpp>
@@ -42,7 +44,7 @@ void Refinement<D>::lay_pattern() {
   const auto fill = [&](Field<double>& field, const auto& value) {
     auto host = Kokkos::create_mirror_view(field);
     for (size_t k = 0; k < daughters.size(); ++k) host(k) = value(daughters[k]);
-    Kokkos::deep_copy(field, host);
+    assign(field, host);
   };
   fill(share_, [](const Daughter& d) { return d.share; });
   for (int axis = 0; axis < D; ++axis) {
@@ -71,7 +73,7 @@ int Refinement<D>::split(FieldSet& particles, const Bind& bind, const Field<int>
   rank_parents(p.id, parents);
   reserve(copy_of_, "split.copy_of", parents * more);
   const Field<int> copy_of = copy_of_;
-  Kokkos::parallel_for("split::copies", Range(0, parents * more), KOKKOS_LAMBDA(int k) { copy_of(k) = parent(k / more); });
+  launch("split::copies", Range(0, parents * more), KOKKOS_LAMBDA(int k) { copy_of(k) = parent(k / more); });
   particles.append_copies(copy_of, parents * more);
   place_daughters(bind(), parents, n, first_id, walls);
   return parents;
@@ -82,7 +84,7 @@ template <int D>
 void Refinement<D>::rank_parents(const Field<int>& id, int parents) {
   reserve(parent_ids_, "split.parent_ids", parents);
   const Field<int> parent = parent_, ids = parent_ids_;
-  Kokkos::parallel_for("split::parent_ids", Range(0, parents), KOKKOS_LAMBDA(int s) { ids(s) = id(parent(s)); });
+  launch("split::parent_ids", Range(0, parents), KOKKOS_LAMBDA(int s) { ids(s) = id(parent(s)); });
   Kokkos::sort(Kokkos::subview(ids, std::pair<int, int>(0, parents)));
 }
 
@@ -98,14 +100,14 @@ void Refinement<D>::place_daughters(const Particles<D>& p, int parents, int firs
   const double alpha = split_->alpha;
   const bool linear = split_->linear;
   const double longest = relax_.longest;
-  Kokkos::parallel_for("split::place", Range(0, parents * daughters), KOKKOS_LAMBDA(int q) {
+  launch("split::place", Range(0, parents * daughters), KOKKOS_LAMBDA(int q) {
         const int k = q / parents, s = q % parents;  // neighbours in memory belong to different parents
         const int i = k == 0 ? parent(s) : first + s * (daughters - 1) + k - 1;
         const Vec<double, D> from = at(p.x, i), to = walls.inside(from + p.h(i) * at(offset, k));
         put(p.x, i, to);
-        const VecField<double, D> velocities[2] = {p.v, p.v_pred};
+        const VecField<double, D>* const velocities[2] = {&p.v, &p.v_pred};  // not copies: those are counted
         if (linear)
-          for (const VecField<double, D>& v : velocities) put(v, i, at(v, i) + stretched(p.strain, parent(s), to - from));
+          for (const auto* v : velocities) put(*v, i, at(*v, i) + stretched(p.strain, parent(s), to - from));
         p.m(i) *= share(k);
         p.h(i) *= alpha;
         p.h0(i) = smaller(p.h(i), larger(p.h0(i), longest));

@@ -1,5 +1,7 @@
 #include "kernels/swe/well_balanced.hpp"
 
+#include "cellgrid/launch.hpp"
+
 namespace freshet::swe {
 namespace {
 
@@ -70,14 +72,14 @@ void add_balanced_bed(const AnyKernel<D>& kernel, const ClusterSet& clusters, co
   const Bed<D> ground = bed;
   const VecField<double, D> x = p.x;
   const ClusterSet sets = clusters;
-  Kokkos::parallel_for("swe::bed_level", Range(0, clusters.size()), KOKKOS_LAMBDA(int c) {
+  launch("swe::bed_level", Range(0, clusters.size()), KOKKOS_LAMBDA(int c) {
         const Lanes me = sets(c);
         me.store(ground.level, ground.spline.at(me.load(x)).b);
       });
   std::visit(
       [&](const auto& k) {
-        Kokkos::parallel_for("swe::balanced_bed", Range(0, clusters.size()),
-                             BalancedBed<D, std::decay_t<decltype(k)>>{k, clusters, near, walls, p, bed, 0.5 * gravity});
+        launch("swe::balanced_bed", Range(0, clusters.size()),
+               BalancedBed<D, std::decay_t<decltype(k)>>{k, clusters, near, walls, p, bed, 0.5 * gravity});
       },
       kernel);
 }

@@ -1,6 +1,7 @@
 // What gauges show: the highest free surface above or below a point, the pressure of the flow there, how far the water reaches.
 #include <algorithm>
 
+#include "cellgrid/assign.hpp"
 #include "kernels/fpm/surface_line.hpp"
 #include "src/fpm/nodes.hpp"
 #include "src/fpm/solver.hpp"
@@ -19,11 +20,11 @@ struct Probe {
 // dx [m]: there
 Probe pressure_at(const Cloud& cloud, const Field<double>& p, const Point& at, double dx, double support) {
   const VecField<double, 2> place{Field<double>("fpm.gauge", 1), Field<double>("fpm.gauge", 1)};
-  Kokkos::deep_copy(place.x, at[0]);
-  Kokkos::deep_copy(place.y, at[1]);
+  assign(place.x, at[0]);
+  assign(place.y, at[1]);
   const Field<double> value("fpm.gauge", 1), h("fpm.gauge", 1), slack("fpm.gauge", 1);
-  Kokkos::deep_copy(h, support * dx);
-  Kokkos::deep_copy(slack, beyond);
+  assign(h, support * dx);
+  assign(slack, beyond);
   Transfer transfer;
   transfer.find(cloud.near, place, h, 1);
   transfer.apply(p, value, slack);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "cellgrid/launch.hpp"
 #include "src/errors.hpp"
 
 namespace freshet::fpm {
@@ -38,7 +39,7 @@ void Grading::size(FieldSet& points) const {
   const Field<double> dx = points.real("dx"), h = points.real("h");
   const BedSpline<2> factor = factor_;
   const double spacing = spacing_, support = support_;
-  Kokkos::parallel_for("fpm::size", Range(0, points.size()), KOKKOS_LAMBDA(int i) {
+  launch("fpm::size", Range(0, points.size()), KOKKOS_LAMBDA(int i) {
         dx(i) = spacing * clamp(factor.sloped_at(at(x, i)).b, least, most);
         h(i) = support * dx(i);
       });

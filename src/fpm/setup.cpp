@@ -2,6 +2,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "cellgrid/assign.hpp"
+#include "cellgrid/launch.hpp"
 #include "src/fpm/place.hpp"
 #include "src/fpm/solver.hpp"
 #include "src/scene/place.hpp"
@@ -54,6 +56,8 @@ Solver::Solver(const Scene& scene)
   keeper_.start(totals().mass);
 }
 
+Solver::~Solver() = default;
+
 void Solver::make_fields() {
   for (const char* name : {"x", "y"}) points_.real(name, "m", Carry::state);
   for (const char* name : {"u", "v", "u_old", "v_old"}) points_.real(name, "m/s", Carry::state);
@@ -86,16 +90,16 @@ void Solver::place() {
     const auto field = points_.real(name);
     const auto host = Kokkos::create_mirror_view(field);
     for (std::size_t i = 0; i < start.size(); ++i) host(i) = value_of(start[i]);
-    Kokkos::deep_copy(field, host);
+    assign(field, host);
   };
   fill("x", [](const StartPoint& s) { return s.x[0]; });
   fill("y", [](const StartPoint& s) { return s.x[1]; });
   for (const char* name : {"u", "u_old"}) fill(name, [](const StartPoint& s) { return s.velocity[0]; });
   for (const char* name : {"v", "v_old"}) fill(name, [](const StartPoint& s) { return s.velocity[1]; });
-  Kokkos::deep_copy(points_.real("h"), scene_.fpm->support * scene_.water.spacing);
+  assign(points_.real("h"), scene_.fpm->support * scene_.water.spacing);
   if (grading_) grading_->size(points_);
   const Field<int> id = points_.integer("id");
-  Kokkos::parallel_for("fpm::number", Range(0, points_.size()), KOKKOS_LAMBDA(int i) { id(i) = i; });
+  launch("fpm::number", Range(0, points_.size()), KOKKOS_LAMBDA(int i) { id(i) = i; });
   next_id_ = points_.size();
   seat_on_walls();
 }
@@ -106,7 +110,7 @@ void Solver::seat_on_walls() {
   const Field<int> kind = points_.integer("kind"), side = points_.integer("side");
   const TankView tank = tank_.view();
   const double near = touching * scene_.water.spacing;  // where the spacing varies, that of the finest
-  Kokkos::parallel_for("fpm::seat", Range(0, points_.size()), KOKKOS_LAMBDA(int i) {
+  launch("fpm::seat", Range(0, points_.size()), KOKKOS_LAMBDA(int i) {
         const Footing f = tank.nearest(at(x, i), near);
         kind(i) = in_fluid;
         side(i) = -1;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "cellgrid/launch.hpp"
 #include "kernels/fpm/area.hpp"
 #include "kernels/fpm/supports.hpp"
 #include "src/errors.hpp"
@@ -112,7 +113,7 @@ Field<double> Solver::cell_areas() const {
   if (area_.extent_int(0) < n) area_ = Field<double>("fpm.area", static_cast<std::size_t>(n + n / 2));
   const Field<double> area = area_;
   const VoronoiRule rule = management_.rule().voronoi;
-  Kokkos::parallel_for("fpm::cell_areas", Range(0, n), KOKKOS_LAMBDA(int i) {
+  launch("fpm::cell_areas", Range(0, n), KOKKOS_LAMBDA(int i) {
         const Radii radii(rule, cloud.spacing_at(i));
         area(i) = wet_area(cell_of(cloud, i, root(radii.open2)), cloud, i, radii);
       });

@@ -11,6 +11,7 @@ namespace freshet::fpm {
 class Solver : public Method {
  public:
   explicit Solver(const Scene& scene);
+  ~Solver() override;
 
   std::string name() const override { return "fpm"; }
   int dimension() const override { return 2; }

@@ -55,6 +55,8 @@ Driver::Driver(const Scene& scene, Method& method, RunOptions options)
       particles_(inside(options_.directory, "particles.h5part")),
       progress_(options_.progress, options_.terminal, 0, scene.end_time) {}
 
+Driver::~Driver() = default;
+
 void Driver::begin() {
   initial_particles_ = fluid_count(method_.fields());
   initial_mechanics_ = method_.mechanics();

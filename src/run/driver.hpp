@@ -31,6 +31,7 @@ class Driver {
  public:
   // Keeps references to the scene and the method.
   Driver(const Scene& scene, Method& method, RunOptions options);
+  ~Driver();
 
   void begin();                                // a new run: files, first output, mass at the start
   void restore(const Checkpoint& checkpoint);  // goes on; the method has its fields and scalars already

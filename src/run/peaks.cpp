@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cellgrid/lanes.hpp"
+#include "cellgrid/launch.hpp"
 #include "src/run/fastest.hpp"
 
 namespace freshet {
@@ -45,7 +46,7 @@ struct Triad {
 double measure_bytes() {
   constexpr int n = 8'000'000;
   const Triad triad{Field<double>("peaks.a", n), Field<double>("peaks.b", n), Field<double>("peaks.c", n)};
-  const double seconds = fastest(6, [&] { Kokkos::parallel_for("peaks::triad", Range(0, n), triad); });
+  const double seconds = fastest(6, [&] { launch("peaks::triad", Range(0, n), triad); });
   return 24.0 * n / seconds;
 }
 
@@ -55,7 +56,7 @@ double multiply_add_rate(int tasks) {
   constexpr int steps = 400000;
   const Field<double> out("peaks.out", static_cast<std::size_t>(tasks));
   const double seconds =
-      fastest(6, [&] { Kokkos::parallel_for("peaks::multiply_add", Range(0, tasks), MultiplyAdd{steps, out}); });
+      fastest(6, [&] { launch("peaks::multiply_add", Range(0, tasks), MultiplyAdd{steps, out}); });
   return 2.0 * chains * width * static_cast<double>(steps) * tasks / seconds;
 }
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "cellgrid/assign.hpp"
 #include "src/io/ascii_grid.hpp"
 #include "src/io/files.hpp"
 #include "src/io/number.hpp"
@@ -34,7 +35,7 @@ std::vector<double> copied(const Field<double>& field) {
 void fill(const Field<double>& field, const std::vector<double>& values) {
   const auto host = Kokkos::create_mirror_view(field);
   for (std::size_t k = 0; k < values.size(); ++k) host(k) = values[k];
-  Kokkos::deep_copy(field, host);
+  assign(field, host);
 }
 
 std::vector<std::pair<std::string, Field<double>>> named(const Maxima& maxima) {

@@ -1,5 +1,7 @@
 #include "src/scene/overrides.hpp"
 
+#include <toml++/toml.h>
+
 #include <optional>
 
 namespace freshet::input {

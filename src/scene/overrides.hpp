@@ -1,12 +1,11 @@
 // Command-line overrides: dotted paths with TOML values, `water.spacing=25`, `gauge.ch5.at=[1, 2]`,
 // `scene.name=trial`.
 #pragma once
-#include <toml++/toml.h>
-
 #include <string>
 #include <vector>
 
 #include "src/scene/diagnostics.hpp"
+#include "src/scene/toml_names.hpp"
 
 namespace freshet::input {
 

@@ -1,5 +1,7 @@
 #include "src/scene/read.hpp"
 
+#include <toml++/toml.h>
+
 #include <filesystem>
 #include <fstream>
 #include <iterator>

@@ -15,6 +15,13 @@ double Series::at(double time) const {
   return value[i - 1] + part * (value[i] - value[i - 1]);
 }
 
+Scene::Scene() = default;
+Scene::Scene(const Scene&) = default;
+Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(const Scene&) = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
+Scene::~Scene() = default;
+
 Point Transect::at(double place) const {
   if (one_dimensional) return {place, 0};
   const double dx = line[1][0] - line[0][0], dy = line[1][1] - line[0][1], part = place / std::hypot(dx, dy);

@@ -279,6 +279,14 @@ struct Scene {
   Output output;
   std::optional<Rasters> rasters;
   Limits limits;
+
+  // Compiled once (scene.cpp): 10 kB of machine code, in each source that holds a scene.
+  Scene();
+  Scene(const Scene&);
+  Scene(Scene&&) noexcept;
+  Scene& operator=(const Scene&);
+  Scene& operator=(Scene&&) noexcept;
+  ~Scene();
 };
 
 }  // namespace freshet

@@ -1,5 +1,7 @@
 #include "src/scene/serialise.hpp"
 
+#include <toml++/toml.h>
+
 #include <algorithm>
 #include <sstream>
 #include <tuple>

@@ -1,9 +1,9 @@
 // A TOML tree as text: sections and keys in the order of the source, numbers in their shortest exact form
 // (toml++ writes 0.4 as 0.40000000000000002). Reading the text gives the same tree.
 #pragma once
-#include <toml++/toml.h>
-
 #include <string>
+
+#include "src/scene/toml_names.hpp"
 
 namespace freshet::input {
 

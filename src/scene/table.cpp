@@ -1,6 +1,8 @@
 // The structure of a table: places, known and missing keys, tables inside. Typed values are in values.cpp.
 #include "src/scene/table.hpp"
 
+#include <toml++/toml.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -21,6 +23,9 @@ std::string rounded(double number) {
   std::snprintf(text, sizeof text, "%.8g", number);
   return text;
 }
+
+template class Value<double>;
+template class Value<int>;
 
 Table::Table(Context& context, toml::table* table, std::string path, Place place)
     : context_(context), table_(table), path_(std::move(path)), place_(place) {}
@@ -51,6 +56,11 @@ Place Table::place_from(const toml::source_region& region) const {
   return {std::stoi(*region.path), static_cast<int>(region.begin.line),
           static_cast<int>(region.begin.column)};
 }
+
+bool Table::has(const std::string& key) const { return table_ && table_->contains(key); }
+bool Table::has_text(const std::string& key) const { return has(key) && table_->get(key)->is_string(); }
+bool Table::has_number(const std::string& key) const { return has(key) && table_->get(key)->is_number(); }
+bool Table::has_table(const std::string& key) const { return has(key) && table_->get(key)->is_table(); }
 
 Place Table::place_of(const std::string& key) const {
   return has(key) ? place_from(table_->get(key)->source()) : place_;

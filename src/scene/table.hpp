@@ -4,8 +4,6 @@
 // and those that are missing. Nothing throws here: errors collect in Diagnostics and reading goes on with a
 // stand-in value.
 #pragma once
-#include <toml++/toml.h>
-
 #include <array>
 #include <filesystem>
 #include <functional>
@@ -16,6 +14,7 @@
 
 #include "src/scene/diagnostics.hpp"
 #include "src/scene/scene.hpp"
+#include "src/scene/toml_names.hpp"
 
 namespace freshet::input {
 
@@ -83,6 +82,9 @@ class Value {
   std::optional<T> value_;
 };
 
+extern template class Value<double>;  // table.cpp
+extern template class Value<int>;
+
 class Table {
  public:
   Table(Context& context, toml::table* table, std::string path, Place place);
@@ -113,10 +115,10 @@ class Table {
   std::size_t size_of(const std::string& key);  // of an array of tables, 0 if absent
   Table element(const std::string& key, std::size_t i);
 
-  bool has(const std::string& key) const { return table_ && table_->contains(key); }
-  bool has_text(const std::string& key) const { return has(key) && table_->get(key)->is_string(); }
-  bool has_number(const std::string& key) const { return has(key) && table_->get(key)->is_number(); }
-  bool has_table(const std::string& key) const { return has(key) && table_->get(key)->is_table(); }
+  bool has(const std::string& key) const;
+  bool has_text(const std::string& key) const;
+  bool has_number(const std::string& key) const;
+  bool has_table(const std::string& key) const;
   // The one key of these that is named; two of them, or none where one is required, are an error and give "".
   std::string one_of(const std::vector<std::string>& keys, bool required);
 

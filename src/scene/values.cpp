@@ -1,4 +1,6 @@
 // The typed values of a table.
+#include <toml++/toml.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "cellgrid/assign.hpp"
+#include "cellgrid/launch.hpp"
 #include "src/errors.hpp"
 #include "src/sisph/solver.hpp"
 
@@ -52,7 +54,7 @@ void Solver<D>::roughen() {
   const Manning& manning = *scene_.manning;
   for (Field<double>* f : {&g_n2_, &drag_}) *f = Field<double>("sisph.friction", static_cast<std::size_t>(particles_.size()) + lanes);
   const double g = scene_.gravity;
-  if (!manning.map) return Kokkos::deep_copy(g_n2_, g * manning.n * manning.n);
+  if (!manning.map) return assign(g_n2_, g * manning.n * manning.n);
   const auto squared = [&](double x, double y) { const double n = manning.map(x, y); return g * n * n; };
   ground_ = NearestTable(squared, {scene_.domain.low, scene_.domain.high, manning.node, manning.step});
 }
@@ -64,7 +66,7 @@ void Solver<D>::find_friction(double dt) {
     const NearestTable ground = ground_;
     const VecField<double, D> x = swarm().x;
     const Field<double> g_n2 = g_n2_;
-    Kokkos::parallel_for("sisph::ground", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) { g_n2(i) = ground.at(at(x, i)); });
+    launch("sisph::ground", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) { g_n2(i) = ground.at(at(x, i)); });
   }
   find_drag<D>(particles_.size(), water(), g_n2_, dt, drag_);
 }

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cellgrid/assign.hpp"
+#include "cellgrid/launch.hpp"
 #include "src/errors.hpp"
 #include "src/scene/names.hpp"
 #include "src/scene/open_law.hpp"
@@ -61,7 +63,7 @@ template <class F>
 void set_field(const Field<double>& field, const std::vector<Start>& start, const F& value) {
   auto host = Kokkos::create_mirror_view(field);
   for (std::size_t i = 0; i < start.size(); ++i) host(i) = value(start[i]);
-  Kokkos::deep_copy(field, host);
+  assign(field, host);
 }
 
 template <int D>
@@ -169,8 +171,8 @@ void Solver<D>::fill_fields(const std::vector<Start>& start) {
   if (bed_) fill("bed", [](const Start& s) { return s.bed; });
   const auto id = Kokkos::create_mirror_view(particles_.integer("id")), kind = Kokkos::create_mirror_view(particles_.integer("kind"));
   for (std::size_t i = 0; i < start.size(); ++i) id(i) = static_cast<int>(i), kind(i) = start[i].held ? 1 : 0;
-  Kokkos::deep_copy(particles_.integer("id"), id);
-  Kokkos::deep_copy(particles_.integer("kind"), kind);
+  assign(particles_.integer("id"), id);
+  assign(particles_.integer("kind"), kind);
 }
 
 template <int D>
@@ -190,7 +192,7 @@ void Solver<D>::build_geometry() {
   if (scene_.sisph.closure && scene_.sisph.formulation == Sisph::Formulation::at_rest) closure_ = close_areas(geometry_);
   level_of_bed_ = bed_ ? particles_.real("bed") : Field<double>("sisph.flat_bed", static_cast<std::size_t>(n) + lanes);
   const Field<double> mass = particles_.real("mass"), depth = particles_.real("depth"), omega = geometry_.omega;
-  Kokkos::parallel_for("sisph::fill", Range(0, n), KOKKOS_LAMBDA(int i) { mass(i) = omega(i) * depth(i); });
+  launch("sisph::fill", Range(0, n), KOKKOS_LAMBDA(int i) { mass(i) = omega(i) * depth(i); });
 }
 
 template <int D>
@@ -238,7 +240,7 @@ void Solver<D>::build_friction() {
     const double n = manning.map ? manning.map(p[0], p[1]) : manning.n;
     host(i) = scene_.gravity * n * n;
   });
-  Kokkos::deep_copy(g_n2_, host);
+  assign(g_n2_, host);
   drag_ = surface_->make_drag();
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cellgrid/launch.hpp"
 #include "src/errors.hpp"
 #include "src/scene/place.hpp"
 
@@ -23,6 +24,9 @@ Solver<D>::Solver(const Scene& scene)
   }
   measure_speeds();
 }
+
+template <int D>
+Solver<D>::~Solver() = default;
 
 template <int D>
 void Solver<D>::step(double t, double dt) {
@@ -125,8 +129,8 @@ void Solver<D>::find_push(double theta, bool drying) {
 template <int D>
 void Solver<D>::push(const VecField<double, D>& from, double impulse, const VecField<double, D>& to) {
   const VecField<double, D> a = from, slope = slope_, b = to;
-  Kokkos::parallel_for("sisph::push", Range(0, particles_.size()),
-                       KOKKOS_LAMBDA(int i) { put(b, i, at(a, i) - impulse * at(slope, i)); });
+  launch("sisph::push", Range(0, particles_.size()),
+         KOKKOS_LAMBDA(int i) { put(b, i, at(a, i) - impulse * at(slope, i)); });
 }
 
 // The velocity of the fluxes before the pressure at n+1: theta of what was carried, the rest of what there was; what fell wet within the
@@ -137,7 +141,7 @@ void Solver<D>::blend(double dt) {
   const VecField<double, D> carried = carried_, v = water().v, before = before_;
   const Field<double> drag = drag_, depth = water().depth, last = surface_->depth();
   const bool dragged = drag.extent(0) > 0;
-  Kokkos::parallel_for("sisph::blend", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) {
+  launch("sisph::blend", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) {
         const double share = dragged ? theta / (1 + drag(i)) : theta, own = wetness(depth(i), larger(last(i), 0.0));
         const Vec<double, D> arrived = at(carried, i);
         put(before, i, share * arrived + (1 - theta) * (arrived + own * (at(v, i) - arrived)));
@@ -151,8 +155,8 @@ void Solver<D>::slow_down(const VecField<double, D>& v) {
   const Field<double> drag = drag_;
   const VecField<double, D> slowed = v;
   if (drag.extent(0) == 0) return;
-  Kokkos::parallel_for("sisph::slow_down", Range(0, particles_.size()),
-                       KOKKOS_LAMBDA(int i) { put(slowed, i, (1 / (1 + drag(i))) * at(slowed, i)); });
+  launch("sisph::slow_down", Range(0, particles_.size()),
+         KOKKOS_LAMBDA(int i) { put(slowed, i, (1 / (1 + drag(i))) * at(slowed, i)); });
 }
 
 // What viscosity changes the velocities by: from where the pressure and the friction of the step's start alone would take them.
@@ -201,7 +205,7 @@ void Solver<D>::accept(double dt, bool closed) {
   const VecField<double, D> v = now.v, end = end_;
   const Field<double> depth = now.depth, found = surface_->depth(), mass = particles_.real("mass"), omega = geometry_.omega;
   const double dust = rounding * celerity_ * celerity_ / scene_.gravity;
-  Kokkos::parallel_for("sisph::accept", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) {
+  launch("sisph::accept", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) {
         const bool wet = found(i) > dust;
         depth(i) = wet ? found(i) : 0.0;
         mass(i) = omega(i) * depth(i);

@@ -29,6 +29,7 @@ template <int D>
 class Solver : public Method {
  public:
   explicit Solver(const Scene& scene);
+  ~Solver() override;
 
   std::string name() const override { return "sisph"; }
   int dimension() const override { return D; }

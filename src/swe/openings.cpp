@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cellgrid/launch.hpp"
 #include "kernels/swe/lattice.hpp"
 #include "src/scene/open_law.hpp"
 #include "src/swe/solver.hpp"
@@ -154,7 +155,7 @@ void Solver<D>::fill_boundaries() {
   order_.sort(particles_);
   order_.measure_reach(particles_, particles_.real("h"), support_);
   const Particles<D> p = bind();
-  Kokkos::parallel_for("swe::invert_h", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) { p.inv_h(i) = 1.0 / p.h(i); });
+  launch("swe::invert_h", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) { p.inv_h(i) = 1.0 / p.h(i); });
   for (auto& boundary : boundaries_) boundary.fill(order_.rows(), particles_, [this] { return bind(); }, bed(), next_id_);
 }
 

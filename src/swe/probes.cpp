@@ -1,4 +1,5 @@
 // What the run loop asks of the solver's state: totals, point samples, run-up, restart scalars.
+#include "cellgrid/launch.hpp"
 #include "kernels/sampling.hpp"
 #include "src/errors.hpp"
 #include "src/scene/names.hpp"
@@ -116,7 +117,7 @@ void Solver<D>::restore(const ScalarState& state) {
   for (size_t k = 0; k < boundaries_.size(); ++k) boundaries_[k].restore(state.at("boundary." + std::to_string(k)));
   if (refinement_) refinement_->restore(state.at("refinement"));
   const Particles<D> p = bind();
-  Kokkos::parallel_for("swe::restore", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) { p.inv_h(i) = 1.0 / p.h(i); });
+  launch("swe::restore", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) { p.inv_h(i) = 1.0 / p.h(i); });
   find_neighbours();  // the saved order is sorted already; gauges and walls ask for rows and lists before the next step
 }
 

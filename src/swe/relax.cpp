@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "cellgrid/launch.hpp"
 #include "src/errors.hpp"
 #include "src/swe/solver.hpp"
 
@@ -43,7 +44,7 @@ void settle(const FieldSet& fields, int dimension, double eta, double level, dou
   const Field<double> m = fields.real("mass"), rho = fields.real("depth"), h0 = fields.real("h0"), kh = fields.real("kh");
   const Field<double> bed = fields.has("bed") ? fields.real("bed") : Field<double>();
   const bool plane = dimension == 2;
-  Kokkos::parallel_for("swe::settle", Range(0, fields.size()), KOKKOS_LAMBDA(int i) {
+  launch("swe::settle", Range(0, fields.size()), KOKKOS_LAMBDA(int i) {
         const double depth = larger(bed.extent(0) > 0 ? level - bed(i) : level, least);
         u(i) *= slowing;
         if (plane) v(i) *= slowing;

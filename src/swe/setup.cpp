@@ -1,6 +1,8 @@
 // From a scene to the solver's state: bed, walls, boundaries, particles, reference density.
 #include <cmath>
 
+#include "cellgrid/assign.hpp"
+#include "cellgrid/launch.hpp"
 #include "src/errors.hpp"
 #include "src/scene/place.hpp"
 #include "src/swe/relax.hpp"
@@ -22,7 +24,7 @@ template <class F>
 void set_field(const Field<double>& field, const std::vector<Placed>& particles, const F& value) {
   auto host = Kokkos::create_mirror_view(field);
   for (size_t i = 0; i < particles.size(); ++i) host(i) = value(particles[i]);
-  Kokkos::deep_copy(field, host);
+  assign(field, host);
 }
 
 }  // namespace
@@ -82,7 +84,7 @@ void Solver<D>::place_particles() {
   fill(p.h0, [](const Placed& q) { return q.h0; });
   fill(p.kh, [](const Placed& q) { return q.depth * power<D>(q.h0); });
   const Field<int> id = p.id;
-  Kokkos::parallel_for("swe::number", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) { id(i) = i; });
+  launch("swe::number", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) { id(i) = i; });
   next_id_ = particles_.size();
 }
 

@@ -63,6 +63,9 @@ Solver<D>::Solver(const Scene& scene)
 }
 
 template <int D>
+Solver<D>::~Solver() = default;
+
+template <int D>
 void Solver<D>::step(double t, double dt) {
   kick_and_drift<D>(bind(), motion(), particles_.size(), dt);
   if (walls_) walls_->reflect(clusters_, bind().x, bind().v, bind().v_pred);

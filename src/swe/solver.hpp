@@ -17,6 +17,7 @@ template <int D>
 class Solver : public Method {
  public:
   explicit Solver(const Scene& scene);
+  ~Solver() override;
 
   std::string name() const override { return "sph-swe"; }
   int dimension() const override { return D; }

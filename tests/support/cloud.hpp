@@ -70,19 +70,7 @@ inline std::vector<Point> lattice(int dimension, const Block& b, double dx) {
 inline Box wide(double spacing) { return {-2000 * spacing, 2000 * spacing, -2000 * spacing, 2000 * spacing}; }
 
 // x, (y), h and id of points, unsorted. ids: empty = in order.
-inline FieldSet point_fields(int dimension, const std::vector<Point>& points, std::vector<int> ids = {}) {
-  if (ids.empty()) ids = numbers(static_cast<int>(points.size()));
-  FieldSet f(static_cast<int>(points.size()));
-  const auto x = f.real("x", "m", Carry::sort), h = f.real("h", "m", Carry::sort);
-  const auto y = dimension == 2 ? f.real("y", "m", Carry::sort) : Field<double>();
-  const auto id = f.integer("id", "1", Carry::sort);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    x(i) = points[i][0];
-    if (dimension == 2) y(i) = points[i][1];
-    id(i) = ids[i];
-  }
-  return f;
-}
+FieldSet point_fields(int dimension, const std::vector<Point>& points, std::vector<int> ids = {});
 
 template <int D>
 VecField<double, D> vector_field(const FieldSet& f, const char* x, const char* y) {
@@ -266,6 +254,8 @@ class Cloud {
 
   double spacing_;
 };
+extern template class Cloud<1>;  // cloud.cpp
+extern template class Cloud<2>;
 
 // The cubic spline as SWE-FORMULAS prints it, piece by piece, against the branch-free form of the kernels.
 inline double printed_norm(int dimension) { return dimension == 1 ? 1.0 : 15.0 / (7.0 * std::acos(-1.0)); }

@@ -1,7 +1,5 @@
 // A directory of its own for a test, removed at the end.
 #pragma once
-#include <unistd.h>
-
 #include <filesystem>
 #include <string>
 
@@ -9,16 +7,8 @@ namespace freshet::test {
 
 class Scratch {
  public:
-  Scratch() {
-    static int count = 0;
-    const std::string name = "freshet-test-" + std::to_string(::getpid()) + "-" + std::to_string(++count);
-    path_ = std::filesystem::temp_directory_path() / name;
-    std::filesystem::create_directories(path_);
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
+  Scratch();
+  ~Scratch();
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
 
