@@ -213,7 +213,13 @@ KOKKOS_FORCEINLINE_FUNCTION double select(bool m, double a, double b) { return m
 KOKKOS_FORCEINLINE_FUNCTION double larger_where(bool m, double a, double b) { return m && a < b ? b : a; }
 KOKKOS_FORCEINLINE_FUNCTION double turned_by(double a, double b) { return b < 0 ? -a : a; }
 KOKKOS_FORCEINLINE_FUNCTION double size_of(double a) { return a < 0 ? -a : a; }
-KOKKOS_FORCEINLINE_FUNCTION double rsqrt(double a) { return 1.0 / ::sqrt(a); }
+KOKKOS_FORCEINLINE_FUNCTION double rsqrt(double a) {
+#if defined(__CUDA_ARCH__) || defined(__HIP_DEVICE_COMPILE__)
+  return ::rsqrt(a);  // one operation there, root and quotient two
+#else
+  return 1.0 / ::sqrt(a);
+#endif
+}
 KOKKOS_FORCEINLINE_FUNCTION double root(double a) { return ::sqrt(a); }
 KOKKOS_FORCEINLINE_FUNCTION int to_index(double a) { return static_cast<int>(a); }  // cut towards zero
 KOKKOS_FORCEINLINE_FUNCTION double to_real(int a) { return a; }

@@ -2,9 +2,10 @@
 # else a pinned release from upstream, else the system's.
 # No version in find_package: Kokkos' version file accepts only the same major. The system's Kokkos comes last, since loading
 # a Serial-only package and rejecting it would leave variables behind that break a Kokkos in a sub-directory.
-set(kokkos_pinned 4.4.01)
-set(kokkos_url https://github.com/kokkos/kokkos/archive/${kokkos_pinned}.tar.gz)
-set(kokkos_sha256 3f7096d17eaaa4004c7497ac082bf1ae3ff47b5104149e54af021a89414c3682)
+# The pinned one is the last for which C++17 will do; 5.x, where it is installed, raises the standard to C++20 itself.
+set(kokkos_pinned 4.7.04)
+set(kokkos_url https://github.com/kokkos/kokkos/releases/download/${kokkos_pinned}/kokkos-${kokkos_pinned}.tar.gz)
+set(kokkos_sha256 4213b248c39e112299fa94ee08817e51126fc02996ed6e2ab56aec4cdb80ee1f)
 set(kokkos_archive ${PROJECT_BINARY_DIR}/kokkos-${kokkos_pinned}.tar.gz)
 
 # Downloads beside the build; a machine without a network gets an empty answer here and not a failed configure.

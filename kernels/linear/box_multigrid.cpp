@@ -7,8 +7,8 @@
 namespace freshet::linear {
 namespace {
 
-constexpr double damping[2] = {0.7, 1.2};  // of the two sweeps; afterwards in the other order
-constexpr double nothing = 1e-8;           // of the largest diagonal of a level: below it a node is not coupled
+constexpr double first_damping = 0.7, second_damping = 1.2;  // of the two sweeps; afterwards in the other order
+constexpr double nothing = 1e-8;                             // of the largest diagonal of a level: below it a node is not coupled
 
 KOKKOS_INLINE_FUNCTION int coarse_count(int n) { return (n + 1) / 2; }
 
@@ -39,7 +39,7 @@ KOKKOS_FORCEINLINE_FUNCTION Axis along_y(const BoxGrid& g) { return {g.ny, g.wra
 struct Neighbours {
   const double *east, *north, *c;
   int stride;
-  Neighbours(const BoxLevel& l, const Vector& v, int at)
+  KOKKOS_FORCEINLINE_FUNCTION Neighbours(const BoxLevel& l, const Vector& v, int at)
       : east(l.east.data() + at), north(l.north.data() + at), c(v.data() + at), stride(l.grid.stride()) {}
   KOKKOS_FORCEINLINE_FUNCTION double operator()(int i) const {
     return east[i] * c[i + 1] + east[i - 1] * c[i - 1] + north[i] * c[i + stride] + north[i - stride] * c[i - stride];
@@ -54,7 +54,7 @@ struct SmoothFromZero {
     const int at = l.grid.start(j);
     double* const to = l.c.data() + at;
     const double *const inverse = l.inverse.data() + at, *const right = l.right.data() + at;
-    for (int i = 0; i < l.grid.nx; ++i) to[i] = damping[0] * inverse[i] * right[i];
+    for (int i = 0; i < l.grid.nx; ++i) to[i] = first_damping * inverse[i] * right[i];
     l.grid.wrap(l.c, j);
   }
 };
@@ -211,7 +211,7 @@ const Vector& BoxMultigrid::cycle() {
   for (std::size_t l = 0; l < depth_; ++l) {
     BoxLevel& here = levels_[l];
     each_row("box_multigrid::smooth_from_zero", here.grid, SmoothFromZero{here});
-    sweep(here, damping[1]);
+    sweep(here, second_damping);
     if (l + 1 == depth_) break;
     each_row("box_multigrid::residual", here.grid, Sweep<true>{here, here.c, here.spare, 0.0});
     each_row("box_multigrid::restrict", levels_[l + 1].grid, Restrict{here, levels_[l + 1]});
@@ -219,8 +219,8 @@ const Vector& BoxMultigrid::cycle() {
   for (std::size_t l = depth_; l-- > 0;) {
     BoxLevel& here = levels_[l];
     if (l + 1 < depth_) each_row("box_multigrid::prolong", here.grid, Prolong{here, levels_[l + 1]});
-    sweep(here, damping[1]);
-    sweep(here, damping[0]);
+    sweep(here, second_damping);
+    sweep(here, first_damping);
   }
   return levels_.front().c;
 }
