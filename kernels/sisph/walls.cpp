@@ -152,7 +152,7 @@ MirrorWalls<2>::MirrorWalls(const std::vector<Polyline>& lines, double beyond, c
     }
   }
   slanting_ = cut.slanting;
-  pieces_ = SegmentBins(ends, beyond);
+  pieces_ = SegmentBins(ends, 0.25 * beyond);
   corners_ = bins_of_corners(cut.corners, 6, beyond);
   chain_ = on_device("sisph.wall_chain", chains), end_ = on_device("sisph.wall_end", end);
   ax_ = on_device("sisph.wall_ax", ax), ay_ = on_device("sisph.wall_ay", ay);

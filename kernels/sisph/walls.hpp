@@ -90,18 +90,25 @@ KOKKOS_FORCEINLINE_FUNCTION Sym<double, 2> invert(Vec<double, 2>) { return {-1.0
 template <int D>
 KOKKOS_FORCEINLINE_FUNCTION typename MirrorWalls<D>::Plane MirrorWalls<D>::nearest(const Box& box, double x, double y,
                                                                                    int& chain) const {
+  constexpr int none = 0x7fffffff;
   Plane best{{0, 0}, {0, 0}, 1e300, false};
-  int here = -1, next = -1;
-  pieces_.for_each(box, [&](int k) {
-    if (here < 0 && chain_(k) >= chain) here = chain_(k);
-    if (chain_(k) != here) {
-      if (next < 0 && here >= 0) next = chain_(k);
-      return;
+  int here = none, next = none, nearest = none;
+  pieces_.any(box, [&](int k) {  // in any order: of pieces equally near the first one counts
+    const int whose = chain_(k);
+    if (whose < chain) return false;
+    if (whose < here) {
+      next = here;
+      here = whose;
+      best.square = 1e300;
+    } else if (whose > here) {
+      next = smaller(next, whose);
+      return false;
     }
     const double dx = x - ax_(k), dy = y - ay_(k), along = dx * tx_(k) + dy * ty_(k);
     const double s = smaller(larger(along, 0.0), length_(k)), px = dx - s * tx_(k), py = dy - s * ty_(k);
     const double square = px * px + py * py;
-    if (!(square < best.square)) return;
+    if (!(square < best.square || (square == best.square && k < nearest))) return false;
+    nearest = k;
     const bool inside = along > 0 && along < length_(k);
     const double per = inside || square == 0 ? 0 : 1 / root(square);
     const bool past_end = ((end_(k) & at_a) && along < 0) || ((end_(k) & at_b) && along > length_(k));
@@ -109,8 +116,9 @@ KOKKOS_FORCEINLINE_FUNCTION typename MirrorWalls<D>::Plane MirrorWalls<D>::neare
     best = {{ax_(k) + s * tx_(k), ay_(k) + s * ty_(k)},
             {per > 0 ? per * px : -ty_(k), per > 0 ? per * py : tx_(k)},
             square, side > 0 && !past_end};
+    return false;
   });
-  chain = next;
+  chain = next == none ? -1 : next;
   return best;
 }
 
