@@ -7,6 +7,7 @@ namespace freshet {
 namespace {
 
 constexpr double small_turn = 0.5;  // rad: below it two pieces are one curve, not a corner
+constexpr double cell = 4;          // x spacing: of the bins of segments, as wide as what is asked of them
 
 WallSegment segment_between(const std::array<double, 2>& a, const std::array<double, 2>& b) {
   WallSegment s{{a[0], a[1]}, {b[0], b[1]}, {}, {}, std::hypot(b[0] - a[0], b[1] - a[1]), 0, 0, 0, 0, -1};
@@ -99,21 +100,20 @@ void lay_face(std::vector<WallSegment>& all, const Chain& chain, double spacing,
 }
 
 // What of a row's point is this segment's: all, half where another segment is as near, nothing where one is nearer.
-double own_part(const std::vector<WallSegment>& all, int k, const double* x, double spacing) {
-  const double own = distance(x, all[k]), tie = 1e-6 * spacing;
-  double part = 1;
-  for (int other = 0; other < static_cast<int>(all.size()); ++other) {
-    if (other == k) continue;
-    const double d = distance(x, all[other]);
-    if (d < own - tie) return 0;
-    if (d < own + tie) part = 0.5;
-  }
-  return part;
+double own_part(const WallGeometry& g, int k, const double* x, double spacing) {
+  const double own = distance(x, g.segments[k]), tie = 1e-6 * spacing;
+  const Box near = box_around(Vec<double, 2>{x[0], x[1]}, own + tie);
+  const auto other_within = [&](double reach) {
+    return g.bins.any(near, [&](int other) { return other != k && distance(x, g.segments[other]) < reach; });
+  };
+  if (other_within(own - tie)) return 0;
+  return other_within(own + tie) ? 0.5 : 1;
 }
 
 // Rows of points behind segment k, on the lattice of its own cells; round corners with the water inside they go on as far as
 // they go deep. Along curves the outer rows are longer (the inner ones shorter) by depth x tan(turn/2) at each end.
-void lay_rows(const std::vector<WallSegment>& all, const Chain& chain, int k, const WallOptions& o, std::vector<WallPoint>& points) {
+void lay_rows(WallGeometry& g, const Chain& chain, int k, const WallOptions& o) {
+  const std::vector<WallSegment>& all = g.segments;
   const WallSegment& s = all[k];
   const int cells = std::max(1, static_cast<int>(std::lround(s.length / o.spacing)));
   const int rows = static_cast<int>(std::ceil(o.reach / o.spacing)), next = chain.behind(k), previous = chain.ahead(k);
@@ -129,10 +129,16 @@ void lay_rows(const std::vector<WallSegment>& all, const Chain& chain, int k, co
         const WallPoint corner = corner_point(s.a, i < 0 ? all[previous] : s, i < 0 ? s : all[next], k);
         std::copy(corner.p, corner.p + 3, point.p);
       }
-      point.share = own_part(all, k, point.x, o.spacing) * step * o.spacing * curved;
-      if (point.share > 0) points.push_back(point);
+      point.share = own_part(g, k, point.x, o.spacing) * step * o.spacing * curved;
+      if (point.share > 0) g.points.push_back(point);
     }
   }
+}
+
+SegmentBins bins_of(const std::vector<WallSegment>& segments, double finest) {
+  std::vector<SegmentBins::Ends> ends;
+  for (const WallSegment& s : segments) ends.push_back({{s.a[0], s.a[1]}, {s.b[0], s.b[1]}});
+  return SegmentBins(ends, finest);
 }
 
 WallGeometry lay_ends(const std::vector<WallLine>& lines, const WallOptions& o, double inside) {
@@ -147,6 +153,7 @@ WallGeometry lay_ends(const std::vector<WallLine>& lines, const WallOptions& o, 
       g.points.push_back({{x, 0}, {1, 0, 0}, 1, segment});
     g.segments.push_back({{x, 0}, {x, 0}, {0, 0}, {side, 0}, 0, 0, 0, 0, 0, -1});
   }
+  g.bins = bins_of(g.segments, cell * o.spacing);
   return g;
 }
 
@@ -160,10 +167,11 @@ WallGeometry lay_lines(const std::vector<WallLine>& lines, const WallOptions& o)
     if (closed || line.size() < 2) continue;
     g.segments[static_cast<size_t>(chains.back().first)].see_a = g.segments.back().see_b = free_end;
   }
+  g.bins = bins_of(g.segments, cell * o.spacing);
   for (const Chain& chain : chains) {
     if (o.kind != WallKind::rows) lay_face(g.segments, chain, o.spacing, o.kind != WallKind::vbp, g.points);
     for (int k = chain.first; o.kind == WallKind::rows && k < chain.first + chain.count; ++k)
-      lay_rows(g.segments, chain, k, o, g.points);
+      lay_rows(g, chain, k, o);
   }
   return g;
 }

@@ -3,6 +3,8 @@
 #include <array>
 #include <vector>
 
+#include "kernels/segment_bins.hpp"
+
 namespace freshet {
 
 enum class WallKind { none, vbp, mvbp, rows, mirror };
@@ -31,6 +33,7 @@ struct WallPoint {
 struct WallGeometry {
   std::vector<WallPoint> points;
   std::vector<WallSegment> segments;
+  SegmentBins bins;  // of the segments
 };
 
 struct WallOptions {

@@ -4,6 +4,7 @@
 
 #include "cellgrid/balanced.hpp"
 #include "cellgrid/box.hpp"
+#include "kernels/on_device.hpp"
 
 namespace freshet {
 namespace {
@@ -58,10 +59,8 @@ Walls<D>::Walls(const std::vector<WallLine>& lines, const WallOptions& options, 
   const Field<double> h = points_.real("h", "m", Carry::no);
   Kokkos::deep_copy(h, next_to_nothing * options.spacing);
   order_.measure_reach(points_, h, tile / next_to_nothing);
-  segments_ = Kokkos::View<WallSegment*, Memory>("walls.segments", g.segments.size());
-  auto host = Kokkos::create_mirror_view(segments_);
-  for (size_t k = 0; k < g.segments.size(); ++k) host(k) = g.segments[k];
-  Kokkos::deep_copy(segments_, host);
+  segments_ = on_device("walls.segments", g.segments);
+  bins_ = g.bins;
 }
 
 template <int D>
@@ -74,6 +73,7 @@ WallView<D> Walls<D>::view() const {
   view.near = near_.view();
   view.segment = points_.integer("segment");
   view.segments = segments_;
+  view.bins = bins_;
   view.deepest = depth_;
   view.share = points_.real("share");
   view.x.x = points_.real("x");
@@ -133,6 +133,33 @@ void Walls<D>::find(const ClusterSet& clusters, const ListRequest<D>& water, con
 
 namespace {
 
+// The lanes that stand behind the segment's line and nearer to it than a distance whose square is far2 [m2], by more than rounding;
+// free ends count as wall.
+KOKKOS_FORCEINLINE_FUNCTION bool any_behind(const WallSegment& s, const Vec<Lane, 1>& p, double slack, double far2) {
+  const Lane r = p.x - s.a[0];
+  return any((r * s.normal[0] < Lane(slack)) & (r * r < Lane(far2)));
+}
+KOKKOS_FORCEINLINE_FUNCTION bool any_behind(const WallSegment& s, const Vec<Lane, 2>& p, double slack, double far2) {
+  const Lane rx = p.x - s.a[0], ry = p.y - s.a[1];
+  const Lane along = clamp(rx * s.tangent[0] + ry * s.tangent[1], Lane(0.0), Lane(s.length));
+  const Lane dx = rx - along * s.tangent[0], dy = ry - along * s.tangent[1];
+  return any((rx * s.normal[0] + ry * s.normal[1] < Lane(slack)) & (dx * dx + dy * dy < Lane(far2)));
+}
+
+// Whether some particle of the cluster may be behind a wall: all lanes at once, since hardly any is.
+template <int D>
+KOKKOS_INLINE_FUNCTION bool may_be_behind(const WallView<D>& walls, int cluster, const Vec<Lane, D>& here, double deepest) {
+  constexpr double ties = 1e-6;  // and rounding
+  int last = -1;
+  bool behind = false;
+  walls.near.for_each(cluster, [&](int k) {
+    const int segment = walls.segment(k);
+    if (segment != last && !behind) behind = any_behind(walls.segments(segment), here, ties * deepest, (1 + ties) * deepest * deepest);
+    last = segment;
+  });
+  return behind;
+}
+
 // -1 if the position is in the water. Only the segments near its cluster are looked at.
 template <int D>
 KOKKOS_INLINE_FUNCTION int segment_before(const WallView<D>& walls, int cluster, const Vec<double, D>& p, double deepest) {
@@ -158,6 +185,7 @@ void Walls<D>::reflect(const ClusterSet& clusters, const VecField<double, D>& x,
   launch("walls::reflect", Range(0, clusters.size()), KOKKOS_LAMBDA(int c) {
         if (walls.near.length(c) == 0) return;
         const Lanes me = sets(c);
+        if (!may_be_behind<D>(walls, c, me.load(x), deepest)) return;
         for (int i = me.first; i < me.first + me.count; ++i)
           for (int bounce = 0; bounce < most_bounces; ++bounce) {
             const int segment = segment_before<D>(walls, c, at(x, i), deepest);

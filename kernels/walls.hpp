@@ -122,14 +122,16 @@ struct WallView {
   Field<double> share;             // of the virtual mass: about 1; rows: the area of each point [m2] (1-D: m)
   NeighbourView near;              // wall points by cluster
   Field<int> segment;              // of each wall point
-  Kokkos::View<WallSegment*, Memory> segments;
+  Field<WallSegment> segments;
+  SegmentBins bins;                // of the segments
   double deepest = 0;              // m, how far behind a wall a particle is still caught
 
   // The position, mirrored in the wall that it stands behind; again in the one behind which that puts it.
   KOKKOS_INLINE_FUNCTION Vec<double, D> inside(Vec<double, D> p) const {
+    constexpr double more = 1 + 1e-6;  // than the ties of NearestSegment
     for (int turns = 0; turns < 4; ++turns) {
       NearestSegment nearest{deepest * deepest};
-      for (int k = 0; k < segments.extent_int(0); ++k) nearest.look_at(k, side_of(segments(k), p));
+      bins.for_each(box_around(p, more * deepest), [&](int k) { nearest.look_at(k, side_of(segments(k), p)); });
       if (nearest.behind() < 0) break;
       p += (-2 * nearest.side.inside) * normal_of<D>(segments(nearest.segment));
     }
@@ -250,7 +252,8 @@ class Walls {
   WallKind kind_;
   Stretch stretch_;
   double reach_;  // x h, how far wall points count
-  Kokkos::View<WallSegment*, Memory> segments_;
+  Field<WallSegment> segments_;
+  SegmentBins bins_;
   double depth_;  // m, how far behind a wall a particle is still caught
 };
 

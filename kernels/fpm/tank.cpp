@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/on_device.hpp"
+
 namespace freshet::fpm {
 namespace {
 
@@ -37,12 +39,11 @@ void append_line(std::vector<Side>& sides, const std::vector<std::array<double, 
 
 }  // namespace
 
-Tank::Tank(const std::vector<std::vector<std::array<double, 2>>>& lines) {
+Tank::Tank(const std::vector<std::vector<std::array<double, 2>>>& lines, double cell) {
   for (const auto& line : lines) append_line(sides_, line);
-  view_.sides = Kokkos::View<Side*, Memory>("fpm.sides", sides_.size());
-  const auto host = Kokkos::create_mirror_view(view_.sides);
-  std::copy(sides_.begin(), sides_.end(), host.data());
-  Kokkos::deep_copy(view_.sides, host);
+  std::vector<SegmentBins::Ends> ends;
+  for (const Side& s : sides_) ends.push_back({{s.a.x, s.a.y}, {s.b.x, s.b.y}});
+  view_ = {on_device("fpm.sides", sides_), SegmentBins(ends, cell)};
 }
 
 // Each side holds the points up to its end b; its first one, where nothing is joined there, too.

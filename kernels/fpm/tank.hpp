@@ -5,8 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "cellgrid/lanes.hpp"
-#include "cellgrid/vec.hpp"
+#include "kernels/segment_bins.hpp"
 
 namespace freshet::fpm {
 
@@ -40,7 +39,8 @@ struct Footing {
 
 // The sides as the device sees them.
 struct TankView {
-  Kokkos::View<Side*, Memory> sides;
+  Field<Side> sides;
+  SegmentBins bins;  // of the sides
 
   KOKKOS_INLINE_FUNCTION int size() const { return sides.extent_int(0); }
 
@@ -67,15 +67,16 @@ struct TankView {
     Footing best;
     best.distance2 = reach * reach;
     const double tie = 1e-9 * best.distance2;
-    for (int k = 0; k < size(); ++k) {
+    constexpr double more = 1 + 1e-6;  // than the tie
+    bins.for_each(box_around(p, more * reach), [&](int k) {
       const Side& s = sides(k);
       const Foot f = foot_on(s, p);
       const double over = f.along < 0 ? -f.along : f.along > s.length ? f.along - s.length : 0;
-      if ((f.along < 0 && s.before < 0) || (f.along > s.length && s.after < 0)) continue;  // beside a free end
+      if ((f.along < 0 && s.before < 0) || (f.along > s.length && s.after < 0)) return;  // beside a free end
       const double d2 = over * over + f.off * f.off;
       const bool same = d2 < best.distance2 + tie && best.side >= 0 && f.off * f.off > best.foot.off * best.foot.off;
       if (d2 < best.distance2 - tie || same) best = {k, f, d2};
-    }
+    });
     return best;
   }
 
@@ -98,7 +99,8 @@ struct WallStart {
 // The sides of polylines (closed where they end as they begin) [m].
 class Tank {
  public:
-  explicit Tank(const std::vector<std::vector<std::array<double, 2>>>& lines);
+  // cell [m]: of the bins of sides, the width of usual queries; 0: many small ones.
+  explicit Tank(const std::vector<std::vector<std::array<double, 2>>>& lines, double cell = 0);
 
   // Points along all sides, spacing [m] apart or a little less, with the corners.
   std::vector<WallStart> lay_points(double spacing) const;

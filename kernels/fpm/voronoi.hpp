@@ -64,11 +64,11 @@ struct PointCell {
 // The cell of point i, exact where it is nearer than half [m]. Walls cut first, then neighbours by distance.
 KOKKOS_INLINE_FUNCTION void cut_walls(Cell& cell, const TankView& tank, const Vec<double, 2>& p, double half) {
   const double reach = 1.5 * half;  // beyond the corners of the square
-  for (int k = 0; k < tank.size(); ++k) {
+  tank.bins.for_each(box_around(p, 1.5 * reach), [&](int k) {  // a side bounds beyond its end, too: farther than reach by sqrt(2)
     const Side& s = tank.sides(k);
     const Foot f = TankView::foot_on(s, p);
     if (TankView::bounds(s, f, reach)) cell.clip(-1.0 * s.normal, larger(f.off, 0.0), Cell::wall(k));
-  }
+  });
 }
 
 KOKKOS_INLINE_FUNCTION void cut_neighbours(PointCell& c) {

@@ -23,13 +23,12 @@ struct WallPairs {
   template <class See>
   KOKKOS_INLINE_FUNCTION void for_each_image(int i, const See& see) const {
     const Vec<double, D> xi = at(nearby.x, i);
-    const auto from = [&](int j, int) {
-      const Vec<double, D> xj = at(nearby.x, j);
+    const auto from = [&](int j, const Vec<double, D>& xj) FRESHET_INLINE_LAMBDA {
       if (walls.part(xi, xj)) return;
       walls.for_each_image(xi, xj, support(i, j), [&](const Vec<double, D>& image, const Sym<double, D>& r) { see(j, image, r); });
     };
-    from(i, i);
-    nearby(i, from);
+    from(i, xi);
+    nearby(i, [&](int j, int) { from(j, at(nearby.x, j)); });
   }
 
   template <class Put>

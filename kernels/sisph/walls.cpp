@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <string>
 
-#include "cellgrid/assign.hpp"
+#include "kernels/on_device.hpp"
 
 namespace freshet::sisph {
 namespace {
@@ -108,23 +107,24 @@ Polyline lengthened(Polyline line, double beyond, const MirrorWalls<2>::Ends& go
   return line;
 }
 
-template <class T>
-Field<T> to_device(const std::string& label, const std::vector<T>& values) {
-  const Field<T> field(label, values.size());
-  const auto host = Kokkos::create_mirror_view(field);
-  for (std::size_t k = 0; k < values.size(); ++k) host(k) = values[k];
-  assign(field, host);
-  return field;
+// Of corners, `stride` values each.
+SegmentBins bins_of_corners(const std::vector<double>& corners, std::size_t stride, double cell) {
+  std::vector<SegmentBins::Ends> ends;
+  for (std::size_t k = 0; k < corners.size(); k += stride) {
+    const double x = corners[k], y = stride > 1 ? corners[k + 1] : 0;
+    ends.push_back({{x, y}, {x, y}});
+  }
+  return SegmentBins(ends, cell);
 }
 
 }  // namespace
 
 template <>
-MirrorWalls<1>::MirrorWalls(const std::vector<Polyline>& lines, double, const Ends&) {
+MirrorWalls<1>::MirrorWalls(const std::vector<Polyline>& lines, double beyond, const Ends&) {
   std::vector<double> places;
   for (const Polyline& line : lines) places.push_back(line[0][0]);
-  corners_ = static_cast<int>(places.size());
-  corner_ = to_device("sisph.wall_place", places);
+  corners_ = bins_of_corners(places, 1, beyond);
+  corner_ = on_device("sisph.wall_place", places);
 }
 
 template <>
@@ -137,25 +137,28 @@ MirrorWalls<2>::MirrorWalls(const std::vector<Polyline>& lines, double beyond, c
     else
       add_open(lengthened(line, beyond, goes_on), cut);
   }
-  std::vector<int> first{0};
+  std::vector<SegmentBins::Ends> ends;
+  std::vector<int> chains, end;
   std::vector<double> ax, ay, tx, ty, length;
-  for (const Polyline& chain : cut.chains) {
+  for (std::size_t c = 0; c < cut.chains.size(); ++c) {
+    const Polyline& chain = cut.chains[c];
     for (std::size_t k = 0; k + 1 < chain.size(); ++k) {
       const Place t = tangent(chain[k], chain[k + 1]);
       ax.push_back(chain[k][0]), ay.push_back(chain[k][1]), tx.push_back(t[0]), ty.push_back(t[1]);
       length.push_back(std::hypot(chain[k + 1][0] - chain[k][0], chain[k + 1][1] - chain[k][1]));
+      ends.push_back({{chain[k][0], chain[k][1]}, {chain[k + 1][0], chain[k + 1][1]}});
+      chains.push_back(static_cast<int>(c));
+      end.push_back(cut.open[c] == 0 ? 0 : (k == 0 ? at_a : 0) | (k + 2 == chain.size() ? at_b : 0));
     }
-    first.push_back(static_cast<int>(ax.size()));
   }
-  chains_ = static_cast<int>(cut.chains.size());
-  corners_ = static_cast<int>(cut.corners.size() / 6);
   slanting_ = cut.slanting;
-  first_ = to_device("sisph.wall_chain", first);
-  open_ = to_device("sisph.wall_open", cut.open);
-  ax_ = to_device("sisph.wall_ax", ax), ay_ = to_device("sisph.wall_ay", ay);
-  tx_ = to_device("sisph.wall_tx", tx), ty_ = to_device("sisph.wall_ty", ty);
-  length_ = to_device("sisph.wall_length", length);
-  corner_ = to_device("sisph.wall_corner", cut.corners);
+  pieces_ = SegmentBins(ends, 0.25 * beyond);
+  corners_ = bins_of_corners(cut.corners, 6, beyond);
+  chain_ = on_device("sisph.wall_chain", chains), end_ = on_device("sisph.wall_end", end);
+  ax_ = on_device("sisph.wall_ax", ax), ay_ = on_device("sisph.wall_ay", ay);
+  tx_ = on_device("sisph.wall_tx", tx), ty_ = on_device("sisph.wall_ty", ty);
+  length_ = on_device("sisph.wall_length", length);
+  corner_ = on_device("sisph.wall_corner", cut.corners);
 }
 
 template class MirrorWalls<1>;

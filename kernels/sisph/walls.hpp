@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cellgrid/pairs.hpp"
+#include "kernels/segment_bins.hpp"
 #include "kernels/sisph/images.hpp"
 
 namespace freshet::sisph {
@@ -19,11 +20,11 @@ template <int D>
 class MirrorWalls {
  public:
   MirrorWalls() = default;  // no walls
-  // Ends that meet no other wall go on straight for `beyond` [m] where goes_on(end): sides of the domain, where openings begin.
+  // Ends that meet no other wall go on straight for `beyond` [m], more than a support, where goes_on(end): sides of the domain, where openings begin.
   using Ends = std::function<bool(const std::array<double, 2>&)>;
   MirrorWalls(const std::vector<Polyline>& lines, double beyond, const Ends& goes_on = [](const auto&) { return true; });
 
-  KOKKOS_FORCEINLINE_FUNCTION bool given() const { return chains_ > 0 || corners_ > 0; }
+  KOKKOS_FORCEINLINE_FUNCTION bool given() const { return pieces_.size() > 0 || corners_.size() > 0; }
   int slanting_corners() const { return slanting_; }  // corners with the water inside that are not right ones: no image through them
 
   // Whether a wall may matter to a particle: one is nearer than the distance.
@@ -31,23 +32,27 @@ class MirrorWalls {
 
   // Calls see(image of xj, reflection) for the images of the pair that lie nearer to xi than the support [m].
   template <class See>
-  KOKKOS_INLINE_FUNCTION void for_each_image(const Vec<double, D>& xi, const Vec<double, D>& xj, double support, const See& see) const;
+  KOKKOS_FORCEINLINE_FUNCTION void for_each_image(const Vec<double, D>& xi, const Vec<double, D>& xj, double support,
+                                                  const See& see) const;
 
   // Whether a wall stands between the two.
   KOKKOS_INLINE_FUNCTION bool part(const Vec<double, D>& xi, const Vec<double, D>& xj) const;
 
  private:
   struct Plane {
-    double q[2], m[2];  // a point of it, and its normal towards the water
-    double square;      // m2, distance
-    bool valid;
+    double q[2] = {0, 0}, m[2] = {0, 0};  // a point of it, and its normal towards the water
+    double square = 1e300;                // m2, distance
+    bool valid = false;
   };
-  KOKKOS_INLINE_FUNCTION Plane nearest(int chain, double x, double y) const;
+  enum End : int { at_a = 1, at_b = 2 };
+  // Of the first chain from `chain` on that has pieces in the box; chain becomes the next one there, -1: none.
+  KOKKOS_FORCEINLINE_FUNCTION Plane nearest(const Box& box, double x, double y, int& chain) const;
 
-  int chains_ = 0, corners_ = 0, slanting_ = 0;
-  Field<int> first_;                     // piece of chain c; chains + 1 values
+  int slanting_ = 0;
+  SegmentBins pieces_, corners_;         // where pieces and corners are
+  Field<int> chain_;                     // of pieces: whose they are; one chain's follow each other
   Field<double> ax_, ay_, tx_, ty_, length_;  // of pieces: start [m], unit tangent, length [m]
-  Field<int> open_;                      // of chains: 1 = its ends are ends, 0 = closed
+  Field<int> end_;                       // of pieces: at which ends an open chain ends, at_a | at_b
   Field<double> corner_;                 // x, y, and both normals: six values each; 1-D: x
 };
 
@@ -83,43 +88,64 @@ KOKKOS_FORCEINLINE_FUNCTION Sym<double, 2> invert(Vec<double, 2>) { return {-1.0
 // The wall's nearest point; at a bend with the water outside (270 degrees) the plane stands across the line to it. A place beside
 // an end of an open chain sees none.
 template <int D>
-KOKKOS_INLINE_FUNCTION typename MirrorWalls<D>::Plane MirrorWalls<D>::nearest(int chain, double x, double y) const {
+KOKKOS_FORCEINLINE_FUNCTION typename MirrorWalls<D>::Plane MirrorWalls<D>::nearest(const Box& box, double x, double y,
+                                                                                   int& chain) const {
+  constexpr int none = 0x7fffffff;
   Plane best{{0, 0}, {0, 0}, 1e300, false};
-  const int begin = first_(chain), end = first_(chain + 1);
-  for (int k = begin; k < end; ++k) {
+  int here = none, next = none, nearest = none;
+  pieces_.any(box, [&](int k) {  // in any order: of pieces equally near the first one counts
+    const int whose = chain_(k);
+    if (whose < chain) return false;
+    if (whose < here) {
+      next = here;
+      here = whose;
+      best.square = 1e300;
+    } else if (whose > here) {
+      next = smaller(next, whose);
+      return false;
+    }
     const double dx = x - ax_(k), dy = y - ay_(k), along = dx * tx_(k) + dy * ty_(k);
     const double s = smaller(larger(along, 0.0), length_(k)), px = dx - s * tx_(k), py = dy - s * ty_(k);
     const double square = px * px + py * py;
-    if (!(square < best.square)) continue;
+    if (!(square < best.square || (square == best.square && k < nearest))) return false;
+    nearest = k;
     const bool inside = along > 0 && along < length_(k);
     const double per = inside || square == 0 ? 0 : 1 / root(square);
-    const bool past_end = open_(chain) == 1 && ((k == begin && along < 0) || (k + 1 == end && along > length_(k)));
+    const bool past_end = ((end_(k) & at_a) && along < 0) || ((end_(k) & at_b) && along > length_(k));
     const double side = -ty_(k) * dx + tx_(k) * dy;  // > 0: on the water's side
     best = {{ax_(k) + s * tx_(k), ay_(k) + s * ty_(k)},
             {per > 0 ? per * px : -ty_(k), per > 0 ? per * py : tx_(k)},
             square, side > 0 && !past_end};
-  }
+    return false;
+  });
+  chain = next == none ? -1 : next;
   return best;
 }
 
 template <int D>
 KOKKOS_INLINE_FUNCTION bool MirrorWalls<D>::near(const Vec<double, D>& x, double distance) const {
   const double px = x.x, py = detail::second(x);
-  for (int k = 0; k < (D == 2 ? 0 : corners_); ++k)
-    if (::fabs(px - corner_(k)) < distance) return true;
-  for (int c = 0; c < chains_; ++c)
-    if (nearest(c, px, py).square < distance * distance) return true;
-  return false;
+  if constexpr (D == 1) {
+    return corners_.any(box_around(x, distance), [&](int k) { return ::fabs(px - corner_(k)) < distance; });
+  }
+  return pieces_.any(box_around(x, distance), [&](int k) {
+    const double dx = px - ax_(k), dy = py - ay_(k), s = smaller(larger(dx * tx_(k) + dy * ty_(k), 0.0), length_(k));
+    const double ox = dx - s * tx_(k), oy = dy - s * ty_(k);
+    return ox * ox + oy * oy < distance * distance;
+  });
 }
 
+// An image is nearer than the support, so that its plane is within half of that of the middle. Inlined, so that the
+// compiler sees where xj is xi: a particle's own image is simpler.
 template <int D>
 template <class See>
-KOKKOS_INLINE_FUNCTION void MirrorWalls<D>::for_each_image(const Vec<double, D>& xi, const Vec<double, D>& xj, double support,
-                                                           const See& see) const {
+KOKKOS_FORCEINLINE_FUNCTION void MirrorWalls<D>::for_each_image(const Vec<double, D>& xi, const Vec<double, D>& xj,
+                                                                double support, const See& see) const {
   const Vec<double, D> middle = 0.5 * (xi + xj), like{};
   const double limit = support * support;
-  for (int c = 0; c < chains_; ++c) {
-    const Plane p = nearest(c, middle.x, detail::second(middle));
+  const Box near = box_around(middle, 0.5 * (1 + 1e-6) * support);
+  for (int chain = 0; chain >= 0;) {
+    const Plane p = nearest(near, middle.x, detail::second(middle), chain);
     if (!p.valid) continue;
     const Vec<double, D> q = detail::make(p.q[0], p.q[1], like), m = detail::make(p.m[0], p.m[1], like);
     const double away_i = dot(m, xi - q), away_j = dot(m, xj - q);
@@ -127,7 +153,7 @@ KOKKOS_INLINE_FUNCTION void MirrorWalls<D>::for_each_image(const Vec<double, D>&
     const Vec<double, D> image = xj - (2 * away_j) * m, d = image - xi;
     if (dot(d, d) < limit) see(image, detail::mirror(p.m[0], p.m[1], like));
   }
-  for (int k = 0; k < corners_; ++k) {
+  corners_.for_each(near, [&](int k) {
     const int at = D == 2 ? 6 * k : k;
     const Vec<double, D> corner = detail::make(corner_(at), D == 2 ? corner_(at + 1) : 0.0, like);
     const Vec<double, D> off = middle - corner, image = 2.0 * corner - xj, d = image - xi;
@@ -135,24 +161,22 @@ KOKKOS_INLINE_FUNCTION void MirrorWalls<D>::for_each_image(const Vec<double, D>&
     if constexpr (D == 2)
       inside = corner_(at + 2) * off.x + corner_(at + 3) * off.y > 0 && corner_(at + 4) * off.x + corner_(at + 5) * off.y > 0;
     if (inside && dot(d, d) < limit) see(image, detail::invert(like));
-  }
+  });
 }
 
 template <int D>
 KOKKOS_INLINE_FUNCTION bool MirrorWalls<D>::part(const Vec<double, D>& xi, const Vec<double, D>& xj) const {
-  if constexpr (D == 1) {
-    for (int k = 0; k < corners_; ++k)
-      if ((xi.x - corner_(k)) * (xj.x - corner_(k)) < 0) return true;
-  }
+  const Box way = box_between(xi, xj);
+  if constexpr (D == 1)
+    return corners_.any(way, [&](int k) { return (xi.x - corner_(k)) * (xj.x - corner_(k)) < 0; });
   const double ix = xi.x, iy = detail::second(xi), jx = xj.x, jy = detail::second(xj);
-  for (int k = 0; k < (chains_ > 0 ? first_(chains_) : 0); ++k) {
+  return pieces_.any(way, [&](int k) {
     const double side_i = tx_(k) * (iy - ay_(k)) - ty_(k) * (ix - ax_(k)), side_j = tx_(k) * (jy - ay_(k)) - ty_(k) * (jx - ax_(k));
-    if (side_i * side_j >= 0) continue;
+    if (side_i * side_j >= 0) return false;
     const double f = side_i / (side_i - side_j);  // of the way from i to j
     const double along = tx_(k) * (ix + f * (jx - ix) - ax_(k)) + ty_(k) * (iy + f * (jy - iy) - ay_(k));
-    if (along >= 0 && along <= length_(k)) return true;
-  }
-  return false;
+    return along >= 0 && along <= length_(k);
+  });
 }
 
 }  // namespace freshet::sisph

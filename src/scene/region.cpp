@@ -38,11 +38,8 @@ std::vector<Point> read_region(Table& region, int dimension) {
 
 bool encloses(const std::vector<Point>& polygon, const Point& p) {
   bool inside = false;
-  for (std::size_t k = 0, before = polygon.size() - 1; k < polygon.size(); before = k++) {
-    const Point &a = polygon[k], &b = polygon[before];
-    const bool spans = (a[1] > p[1]) != (b[1] > p[1]);
-    if (spans && p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])) inside = !inside;
-  }
+  for (std::size_t k = 0, before = polygon.size() - 1; k < polygon.size(); before = k++)
+    if (crosses_ray(polygon[before], polygon[k], p)) inside = !inside;
   return inside;
 }
 

@@ -50,14 +50,28 @@ WaterRegion::WaterRegion(const std::vector<Wall>& walls) {
         outline.low[k] = std::min(outline.low[k], p[k]);
         outline.high[k] = std::max(outline.high[k], p[k]);
       }
+    std::vector<SegmentBins::Ends> heights;
+    for (std::size_t k = 0; k + 1 < wall.line.size(); ++k)
+      heights.push_back({{0, wall.line[k][1]}, {0, wall.line[k + 1][1]}});
+    outline.by_y = SegmentBins(heights, (outline.high[1] - outline.low[1]) / static_cast<double>(heights.size()));
     outlines_.push_back(std::move(outline));
   }
+}
+
+// Even-odd rule.
+bool WaterRegion::Outline::encloses(const Point& p) const {
+  bool inside = false;
+  by_y.for_each({0, 0, p[1], p[1]}, [&](int k) {
+    const auto side = static_cast<std::size_t>(k);
+    if (input::crosses_ray(line[side], line[side + 1], p)) inside = !inside;
+  });
+  return inside;
 }
 
 bool WaterRegion::holds(const Point& p) const {
   for (const Outline& outline : outlines_) {
     const bool near = p[0] >= outline.low[0] && p[0] <= outline.high[0] && p[1] >= outline.low[1] && p[1] <= outline.high[1];
-    if ((near && input::encloses(outline.line, p)) != outline.water_inside) return false;
+    if ((near && outline.encloses(p)) != outline.water_inside) return false;
   }
   return true;
 }

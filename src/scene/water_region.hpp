@@ -2,6 +2,7 @@
 #pragma once
 #include <vector>
 
+#include "kernels/segment_bins.hpp"
 #include "src/scene/scene.hpp"
 
 namespace freshet {
@@ -21,7 +22,10 @@ class WaterRegion {
   struct Outline {
     std::vector<Point> line;
     bool water_inside;
-    Point low, high;  // m, bounds
+    Point low, high;     // m, bounds
+    SegmentBins by_y{};  // its sides by their heights alone: those that a ray along x may cross
+
+    bool encloses(const Point& p) const;
   };
   std::vector<Outline> outlines_;
 };

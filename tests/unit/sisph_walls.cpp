@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/support/cloud.hpp"
@@ -127,6 +128,41 @@ TEST_CASE("sisph walls: four separate walls make a box") {
   const MirrorWalls<2> walls({{{0, 0}, {4, 0}}, {{4, 3}, {0, 3}}, {{4, 0}, {4, 3}}, {{0, 3}, {0, 0}}}, 1);
   CHECK(images(walls, {3.9, 2.9}, {3.9, 2.9}, 1).size() == 3);
   CHECK(images(walls, {0.1, 0.1}, {0.1, 0.1}, 1).size() == 3);
+}
+
+TEST_CASE("sisph walls: of many chains near a pair each mirrors as if it stood alone, in order") {
+  // Three coasts of 2000 sides each, 0.1 apart round the water, and islands with the water outside.
+  std::vector<Polyline> lines;
+  for (const double radius : {2.0, 2.1, 2.2}) lines.push_back(circle(radius, 2000));
+  for (int k = 0; k < 8; ++k) {
+    Polyline island = circle(0.02, 40);
+    for (auto& p : island) p = {1.9 * std::cos(k) + p[0], 1.9 * std::sin(k) + p[1]};
+    lines.emplace_back(island.rbegin(), island.rend());
+  }
+  const MirrorWalls<2> walls(lines, 0);
+  std::vector<MirrorWalls<2>> each;
+  for (const Polyline& line : lines) each.push_back(MirrorWalls<2>({line}, 0));
+  test::Random random(11);
+  std::size_t most = 0;
+  for (int n = 0; n < 400; ++n) {
+    const double r = random(1.7, 1.99), angle = random(-pi, pi);
+    const V2 xi{r * std::cos(angle), r * std::sin(angle)}, xj{xi.x + random(-0.1, 0.1), xi.y + random(-0.1, 0.1)};
+    const auto found = images(walls, xi, xj, 0.5);
+    std::vector<Mirrored> alone;
+    bool parted = false, near = false;
+    for (const auto& one : each) {
+      for (const Mirrored& image : images(one, xi, xj, 0.5)) alone.push_back(image);
+      parted = parted || one.part(xi, xj);
+      near = near || one.near(xi, 0.05);
+    }
+    REQUIRE(found.size() == alone.size());
+    // The same arithmetic, compiled once: no tolerance.
+    for (std::size_t k = 0; k < found.size(); ++k) CHECK(distance(found[k].x, alone[k].x) == 0);
+    CHECK(walls.part(xi, xj) == parted);
+    CHECK(walls.near(xi, 0.05) == near);
+    most = std::max(most, found.size());
+  }
+  CHECK(most >= 4);
 }
 
 TEST_CASE("sisph walls: in one dimension a wall is a point") {
