@@ -1,5 +1,6 @@
 // Sums over particles that do not depend on the number of threads: chunks of fixed size, added in order.
 #pragma once
+#include "cellgrid/launch.hpp"
 #include "cellgrid/types.hpp"
 
 namespace freshet {
@@ -14,7 +15,7 @@ class OrderedSums {
     if (partial_.extent_int(0) < chunks * K)
       partial_ = Field<double>(Kokkos::ViewAllocateWithoutInitializing("cellgrid.partial_sums"), static_cast<size_t>(2 * chunks * K));
     const Field<double> partial = partial_;
-    Kokkos::parallel_for(label, Range(0, chunks), KOKKOS_LAMBDA(int c) {
+    launch(label, Range(0, chunks), KOKKOS_LAMBDA(int c) {
           Kokkos::Array<double, K> sum{};
           for (int i = c * Chunk; i < smaller((c + 1) * Chunk, n); ++i) {
             const Kokkos::Array<double, K> value = values(i);
