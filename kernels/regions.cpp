@@ -1,20 +1,8 @@
 #include "kernels/regions.hpp"
 
-#include "cellgrid/assign.hpp"
+#include "cellgrid/on_device.hpp"
 
 namespace freshet {
-namespace {
-
-template <class T>
-Field<T> uploaded(const std::string& label, const std::vector<T>& values) {
-  Field<T> field(label, values.size());
-  auto host = Kokkos::create_mirror_view(field);
-  for (std::size_t k = 0; k < values.size(); ++k) host(k) = values[k];
-  assign(field, host);
-  return field;
-}
-
-}  // namespace
 
 PlacedValue::PlacedValue(double elsewhere, const std::vector<ValuedRegion>& regions)
     : count_(static_cast<int>(regions.size())), elsewhere_(elsewhere) {
@@ -25,10 +13,10 @@ PlacedValue::PlacedValue(double elsewhere, const std::vector<ValuedRegion>& regi
     first.push_back(static_cast<int>(x.size()));
     value.push_back(region.value);
   }
-  x_ = uploaded("regions.x", x);
-  y_ = uploaded("regions.y", y);
-  first_ = uploaded("regions.first", first);
-  value_ = uploaded("regions.value", value);
+  x_ = on_device("regions.x", x);
+  y_ = on_device("regions.y", y);
+  first_ = on_device("regions.first", first);
+  value_ = on_device("regions.value", value);
 }
 
 }  // namespace freshet

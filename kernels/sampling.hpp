@@ -1,6 +1,8 @@
-// What a fixed place sees of sorted water: for gauges and run-up points. Reads the views on the host.
+// What fixed places see of sorted water: for gauges and run-up points. Found on the device; the host reads
+// some bytes per place.
 #pragma once
 #include <array>
+#include <vector>
 
 #include "kernels/bed_spline.hpp"
 #include "kernels/raster.hpp"
@@ -10,32 +12,44 @@ namespace freshet {
 
 // x and, in 2-D, y [m].
 template <int D>
-Vec<double, D> to_vec(const std::array<double, 2>& point) {
+KOKKOS_INLINE_FUNCTION Vec<double, D> to_vec(double x, double y) {
   Vec<double, D> place;
-  place.x = point[0];
-  if constexpr (D == 2) place.y = point[1];
+  place.x = x;
+  if constexpr (D == 2) place.y = y;
   return place;
+}
+template <int D>
+Vec<double, D> to_vec(const std::array<double, 2>& point) {
+  return to_vec<D>(point[0], point[1]);
 }
 
 struct SampledDepth {
-  double depth = 0;      // m, 0 if no particle reaches the place
-  bool reached = false;  // some particle's support covers it
+  double bed = 0;    // m
+  double depth = 0;  // m, 0 if no particle reaches the place
+  int reached = 0;   // whether some particle's support covers it
 };
 
-// Shepard mean over the water within 2h, its cover held above 1/4.
+// Keeps the places on the device for the next call.
 template <int D>
-SampledDepth sample_depth(const SortedWater<D>& water, const Vec<double, D>& place);
+class Sampler {
+ public:
+  // Of each place [m] the Shepard mean over the water within 2h, its cover held above 1/4. No bed = flat, at
+  // 0.
+  std::vector<SampledDepth> sample(const SortedWater<D>& water, const BedSpline<D>* bed,
+                                   const std::vector<std::array<double, 2>>& places);
 
-// Which water counts: at least min_depth [m] deep, within radius [m] of the place.
-template <int D>
-struct Shore {
-  Vec<double, D> place;
-  double radius, min_depth;
-  double spacing;  // m, of the particles
+ private:
+  void lay(const std::vector<std::array<double, 2>>& places);
+
+  std::vector<std::array<double, 2>> places_;
+  Kokkos::View<Vec<double, D>*, Memory> place_;
+  Kokkos::View<SampledDepth*, Memory> found_;
 };
 
-// The highest of it. No bed = flat, at 0.
+// Raises what each shore has seen so far to the highest of its water now. No bed = flat, at 0. spacing: of
+// the particles [m].
 template <int D>
-WetLevels highest_wet_levels(const SortedWater<D>& water, const BedSpline<D>* bed, const Shore<D>& shore);
+void raise_wet_levels(const SortedWater<D>& water, const BedSpline<D>* bed, double spacing,
+                      const Shores& shores);
 
 }  // namespace freshet

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "kernels/on_device.hpp"
+#include "cellgrid/on_device.hpp"
 
 namespace freshet {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "cellgrid/balanced.hpp"
 #include "cellgrid/box.hpp"
-#include "kernels/on_device.hpp"
+#include "cellgrid/on_device.hpp"
 
 namespace freshet {
 namespace {

@@ -3,11 +3,23 @@
 //   line: where its surface meets the bed: bed + min(depth, spacing |grad b|), the surface of that water, no higher than the bed a spacing
 //         up the slope. Particles at rest are wet or dry, so that `bed` rises in steps of spacing |grad b|; `line` does not.
 #pragma once
+#include "cellgrid/types.hpp"
 
 namespace freshet {
 
 struct WetLevels {
   double bed = -1e300, line = -1e300;
+};
+
+// Which water counts: at least min_depth [m] deep, within radius [m] of the place (1-D: y = 0).
+struct Shore {
+  double x, y, radius, min_depth;
+};
+
+// Shores and the highest water that each has seen so far, on the device.
+struct Shores {
+  Kokkos::View<Shore*, Memory> shore;
+  Kokkos::View<WetLevels*, Memory> highest;
 };
 
 }  // namespace freshet

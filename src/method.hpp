@@ -79,8 +79,8 @@ class Method {
     for (const Gauge& g : gauges) points.push_back(g.at);
     return sample(points);
   }
-  // The highest of the water at least min_depth (third) deep within radius (second) of the point [m].
-  virtual WetLevels highest_wet_levels(const Point&, double, double) const { return {}; }
+  // Raises what each shore has seen so far to the highest of its water now; nothing is copied to the host.
+  virtual void raise_wet_levels(const Shores&) const {}
   virtual std::vector<std::string> features() const = 0;  // what this scene switched on, for `check` and the log
 
   // What the method did beyond its recipe since t = 0, for the end of the log and the summary's warnings.

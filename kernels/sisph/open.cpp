@@ -1,10 +1,7 @@
 #include "kernels/sisph/open.hpp"
 
-#include <algorithm>
-#include <cmath>
-
-#include "cellgrid/assign.hpp"
 #include "cellgrid/launch.hpp"
+#include "cellgrid/on_device.hpp"
 #include "kernels/sisph/open_fit.hpp"
 
 namespace freshet::sisph {
@@ -68,122 +65,50 @@ struct TraceBack {
   }
 };
 
-template <class T>
-void copy_in(const std::vector<T>& values, const Field<T>& field) {
-  const auto host = Kokkos::create_mirror_view(field);
-  for (std::size_t k = 0; k < values.size(); ++k) host(k) = values[k];
-  assign(field, host);
-}
-
-// m, what the surface falls by friction between the line and a place behind it, outwards; no more than a fifth of the depth.
-double friction_fall(double n2, const InnerState& inner, double outside) {
-  if (n2 == 0 || inner.depth <= 0) return 0;
-  const double slope = -n2 * inner.inward * std::abs(inner.inward) / (inner.depth * std::cbrt(inner.depth));
-  return std::clamp(slope * outside, -0.2 * inner.depth, 0.2 * inner.depth);
-}
-
 VecField<double, 1> vectors(std::size_t n, Vec<double, 1>) { return {Field<double>("sisph.rim_x", n)}; }
 VecField<double, 2> vectors(std::size_t n, Vec<double, 2>) { return {Field<double>("sisph.rim_x", n), Field<double>("sisph.rim_y", n)}; }
+
+// Of the water at rest.
+template <int D>
+std::vector<RimRecord> records(const std::vector<RimPlace<D>>& places, const TracedWater<D>& at_rest) {
+  const auto depth = on_host(at_rest.water.depth), bed = on_host(at_rest.water.bed);
+  const bool rough = at_rest.g_n2.extent(0) > 0;
+  const auto g_n2 = rough ? on_host(at_rest.g_n2) : depth;
+  std::vector<RimRecord> all;
+  for (const RimPlace<D>& p : places) {
+    const double n2 = rough ? g_n2(p.particle) / at_rest.gravity : 0.0;
+    all.push_back({p.opening, p.outside, p.width, bed(p.particle), depth(p.particle), n2});
+  }
+  return all;
+}
 
 }  // namespace
 
 template <int D>
 OpenRim<D>::OpenRim(std::vector<LawInTime> laws, const std::vector<RimPlace<D>>& places, const TracedWater<D>& traced)
-    : count_(static_cast<int>(places.size())), gravity_(traced.gravity), spacing_(traced.spacing), laws_(std::move(laws)),
-      places_(places), mean_out_(places.size(), 0.0), mean_celerity_(places.size(), 0.0),
-      particle_("sisph.rim_particle", places.size()),
-      n_(vectors(places.size(), Vec<double, D>{})), velocity_(vectors(places.size(), Vec<double, D>{})),
+    : count_(static_cast<int>(places.size())),
+      laws_(std::move(laws), records(places, traced), traced.gravity, traced.spacing, D == 1),
+      velocity_(vectors(places.size(), Vec<double, D>{})),
       foot_depth_("sisph.rim_foot_depth", places.size()), foot_out_("sisph.rim_foot_out", places.size()),
       depth_("sisph.rim_depth", places.size()), foot_v_(vectors(places.size(), Vec<double, D>{})) {
-  const auto depth = on_host(traced.water.depth), bed = on_host(traced.water.bed);
-  const bool rough = traced.g_n2.extent(0) > 0;
-  const auto g_n2 = rough ? on_host(traced.g_n2) : depth;
   std::vector<int> particle;
   std::vector<double> across, along;
   for (const RimPlace<D>& p : places) {
     particle.push_back(p.particle);
-    still_.push_back(depth(p.particle));
-    bed_.push_back(bed(p.particle));
-    n2_.push_back(rough ? g_n2(p.particle) / gravity_ : 0.0);
     across.push_back(p.n.x);
     along.push_back(up(p.n));
   }
-  copy_in(particle, particle_);
-  copy_in(across, n_.x);
-  if constexpr (D == 2) copy_in(along, n_.y);
+  particle_ = on_device("sisph.rim_particle", particle);
+  n_.x = on_device("sisph.rim_x", across);
+  if constexpr (D == 2) n_.y = on_device("sisph.rim_y", along);
 }
 
-// The laws are host code: a rim has few particles.
 template <int D>
 void OpenRim<D>::find(const TracedWater<D>& traced, double t, double dt) {
   launch("sisph::trace_back", Range(0, count_),
-         TraceBack<D>{{traced}, particle_, n_, foot_v_, foot_depth_, foot_out_, dt});
-  const auto foot_depth = on_host(foot_depth_), foot_out = on_host(foot_out_);
-  const std::vector<double> depths(foot_depth.data(), foot_depth.data() + count_);
-  std::vector<std::vector<double>> share;
-  for (std::size_t o = 0; o < laws_.size(); ++o) share.push_back(shares(o, laws_[o](t + dt), depths));
-  std::vector<double> depth, out;
-  for (std::size_t k = 0; k < places_.size(); ++k) {
-    const RimPlace<D>& p = places_[k];
-    const auto opening = static_cast<std::size_t>(p.opening);
-    const double c = std::sqrt(gravity_ * std::max(depths[k], still_[k])), when = t + dt + (c > 0 ? p.outside / c : 0);
-    const InnerState inner = inner_state(k, depths[k], foot_out(k), c * dt / spacing_);
-    const double fall = friction_fall(n2_[k], inner, p.outside);
-    const OpenStrip strip{gravity_, bed_[k] + fall, still_[k], share[opening].empty() ? 0.0 : share[opening][k]};
-    const ExteriorState state = exterior_state(laws_[opening](when), inner, strip);
-    depth.push_back(state.depth);
-    out.push_back(-state.inward);
-  }
-  copy_in(depth, depth_);
-  copy_in(out, foot_out_);
+                       TraceBack<D>{{traced}, particle_, n_, foot_v_, foot_depth_, foot_out_, dt});
+  laws_.find({foot_depth_, foot_out_, depth_}, t, dt);
   turn_velocities();
-}
-
-// The water before the place, and its slow means: taken on while a wave crosses some spacings, anew on the first water. As in the
-// explicit method, what arrives meets a mean inflow so that it ends.
-template <int D>
-InnerState OpenRim<D>::inner_state(std::size_t k, double depth, double out, double crossed) {
-  constexpr double memory = 15;  // spacings
-  if (!(depth > 0)) {
-    mean_out_[k] = mean_celerity_[k] = 0;
-    return {};
-  }
-  const double c = std::sqrt(gravity_ * depth), part = mean_celerity_[k] == 0 ? 1 : 1 - std::exp(-crossed / memory);
-  mean_out_[k] += part * (out - mean_out_[k]);
-  mean_celerity_[k] += part * (c - mean_celerity_[k]);
-  return {depth, -out, 2 * mean_celerity_[k] - std::abs(mean_out_[k])};
-}
-
-// Of a discharge that passes each place, per metre; the first row behind the line stands for the line. Empty for other laws.
-template <int D>
-std::vector<double> OpenRim<D>::shares(std::size_t opening, const OpenLaw& law, const std::vector<double>& foot_depth) const {
-  const auto* discharge = std::get_if<ImposedDischarge>(&law);
-  if (!discharge) return {};
-  std::vector<Portion> portions;
-  std::vector<std::size_t> own;
-  for (std::size_t k = 0; k < places_.size(); ++k) {
-    if (static_cast<std::size_t>(places_[k].opening) != opening) continue;
-    portions.push_back({bed_[k] + foot_depth[k], bed_[k], places_[k].width, foot_depth[k] > 0});
-    own.push_back(k);
-  }
-  const std::vector<double> found = discharge_shares(portions, discharge->by_width || D == 1);
-  std::vector<double> all(places_.size(), 0.0);
-  for (std::size_t k = 0; k < own.size(); ++k) all[own[k]] = found[k];
-  return all;
-}
-
-template <int D>
-std::vector<double> OpenRim<D>::means() const {
-  std::vector<double> all = mean_out_;
-  all.insert(all.end(), mean_celerity_.begin(), mean_celerity_.end());
-  return all;
-}
-
-template <int D>
-void OpenRim<D>::set_means(const std::vector<double>& means) {
-  const auto middle = means.begin() + count_;
-  mean_out_.assign(means.begin(), middle);
-  mean_celerity_.assign(middle, means.end());
 }
 
 // Leaving water keeps its velocity along the line, entering water has none.

@@ -6,15 +6,12 @@
 // n points outwards. The rim's level is Dirichlet's condition of the matrix. Its velocity in the fluxes is the one before the
 // pressure at n+1, v^{n+1} + theta g dt grad eta / (1 + dt gamma).
 #pragma once
-#include <functional>
 #include <vector>
 
-#include "kernels/open_states.hpp"
+#include "kernels/sisph/rim_laws.hpp"
 #include "kernels/sisph/surface.hpp"
 
 namespace freshet::sisph {
-
-using LawInTime = std::function<OpenLaw(double)>;  // at a time [s]
 
 template <int D>
 struct RimPlace {
@@ -59,21 +56,15 @@ class OpenRim {
   int size() const { return count_; }
 
   // Slow means of v.n and c at the feet: part of the restart state.
-  std::vector<double> means() const;
-  void set_means(const std::vector<double>& means);
+  std::vector<double> means() const { return laws_.means(); }
+  void set_means(const std::vector<double>& means) { laws_.set_means(means); }
 
   // Part of the above: kernels must not be in private functions.
   void turn_velocities();
 
  private:
-  InnerState inner_state(std::size_t place, double depth, double out, double crossed);
-  std::vector<double> shares(std::size_t opening, const OpenLaw& law, const std::vector<double>& foot_depth) const;
-
   int count_;
-  double gravity_, spacing_;
-  std::vector<LawInTime> laws_;
-  std::vector<RimPlace<D>> places_;
-  std::vector<double> bed_, n2_, still_, mean_out_, mean_celerity_;  // m, s2/m^(2/3), m, m/s, m/s
+  RimLaws laws_;
   Field<int> particle_;
   VecField<double, D> n_, velocity_;             // velocity_: at n+1
   Field<double> foot_depth_, foot_out_, depth_;  // of the foot: depth, v.n with sources; depth_: at n+1

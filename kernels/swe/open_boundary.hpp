@@ -36,7 +36,7 @@ class OpenBoundary {
   // Least time [s] in which what enters dry land crosses h: until it has entered, no particle tells the time step of it.
   double crossing_time() const { return crossing_time_; }
 
-  const OpenFlow& flow() const { return flow_; }
+  OpenFlow flow() const;
   double straddling(const Particles<D>& p, const Field<int>& kind, int n) const;  // m3
   int pieces() const { return static_cast<int>(buffers_.size()); }
 
@@ -44,17 +44,15 @@ class OpenBoundary {
   void restore(const std::vector<double>& state);
 
  private:
-  void account(const std::vector<OpenRow>& rows, double width, double dt);
-  void impose(double t, double dt);
   void foresee();
-  void take_still();
 
-  std::vector<OpenBuffer<D>> buffers_;
   std::function<OpenLaw(double)> law_;
   std::vector<double> times_;
   double gravity_;
+  std::vector<OpenBuffer<D>> buffers_;
+  OpenSection section_;
   double crossing_time_ = 1e300;
-  OpenFlow flow_;
+  OpenFlow flow_;  // without the fluxes, which the section accounts for
 };
 
 }  // namespace freshet::swe

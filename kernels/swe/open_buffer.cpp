@@ -45,7 +45,6 @@ OpenBuffer<D>::OpenBuffer(const OpenLine<D>& line, const OpenBufferOptions& opti
     total_ = before_ + count_ + wedge_rows(line.spread_b, buffer_, width_);
   }
   const auto size = static_cast<size_t>(total_);
-  row_ = Kokkos::View<OpenRow*, Memory>("open.rows", size);
   extent_ = Kokkos::View<Extent*, Memory>("open.extents", size);
   farthest_ = Field<double>("open.farthest", size);
   nearest_ = Field<double>("open.nearest", size);
@@ -79,24 +78,10 @@ void OpenBuffer<D>::survey(const std::optional<Bed<D>>& bed) {
   const auto row = row_;
   const Frame at_line = frame();
   const std::optional<Bed<D>> ground = bed;
-  launch("open::survey", Range(0, total_), KOKKOS_LAMBDA(int r) {
-        const int nearest = smaller(larger(r, at_line.before), at_line.before + at_line.count - 1);
-        row(r).bed = bed_at<D>(ground, at_line.point(nearest, 0));
+  launch("open::survey", Range(0, count_),
+                       KOKKOS_LAMBDA(int r) {
+        row(r).bed = bed_at<D>(ground, at_line.point(at_line.before + r, 0));
       });
-}
-
-template <int D>
-std::vector<OpenRow> OpenBuffer<D>::rows() const {
-  const auto host = on_host(row_);
-  return {host.data() + before_, host.data() + before_ + count_};
-}
-
-template <int D>
-void OpenBuffer<D>::set(const std::vector<OpenRow>& rows) {
-  auto host = Kokkos::create_mirror_view(row_);
-  for (int r = 0; r < total_; ++r)
-    host(r) = rows.at(static_cast<size_t>(std::clamp(r - before_, 0, count_ - 1)));  // beyond the ends: as the row at the end
-  Kokkos::deep_copy(row_, host);
 }
 
 template <int D>
@@ -107,8 +92,8 @@ void OpenBuffer<D>::observe(const Rows& rows, const Particles<D>& p, const Field
   const Particles<D> f = p;
   const double summed = options_.summed;
   const std::optional<Friction> friction = options_.friction;
-  launch("open::observe", Range(before_, before_ + count_), KOKKOS_LAMBDA(int r) {
-        const Vec<double, D> here = at_line.point(r, 0);
+  launch("open::observe", Range(0, count_), KOKKOS_LAMBDA(int r) {
+        const Vec<double, D> here = at_line.point(at_line.before + r, 0);
         const double bed_on_line = row(r).bed;
         double y = 0;
         if constexpr (D == 2) y = here.y;
@@ -157,7 +142,7 @@ Crossed OpenBuffer<D>::convert(FieldSet& particles, const Particles<D>& p, const
         const bool leaves = kind(i) == 0 && inside < 0 && inside > -deepest && at_line.beside(x, 1);
         if (!leaves && kind(i) != owner) return in_out;
         const int r = at_line.row(x);
-        const OpenRow state = row(r);
+        const OpenRow state = row(at_line.state(r));
         if (leaves && state.closed) {
           bounce<D>(f, i, inside, at_line.line.inward);
           return in_out;
@@ -257,14 +242,15 @@ void OpenBuffer<D>::insert(FieldSet& particles, const Bind<D>& bind, const std::
   const double area = D == 1 ? dx : dx * width_, h = options_.eta * (D == 1 ? area : root(area)), summed = options_.summed;
   const int first_id = take_ids(next_id, added);
   launch("open::insert", Range(0, total), KOKKOS_LAMBDA(int r) {
+        const OpenRow& state = row(at_line.state(r));
         for (int k = room(r); k < room(r + 1); ++k) {
           const int i = n + k, turn = k - room(r), outer = turn - inner_room(r);
           const double outside = outer < 0 ? nearest(r) - (turn + 1) * dx : farthest(r) + (outer + 1) * dx;
           const Vec<double, D> here = at_line.point(r, -outside);
-          const double depth = exterior.depth(row(r), here, -outside);
+          const double depth = exterior.depth(state, here, -outside);
           put(f.x, i, here);
-          put(f.v, i, exterior.velocity(row(r), at_line.line));
-          put(f.v_pred, i, exterior.velocity(row(r), at_line.line));
+          put(f.v, i, exterior.velocity(state, at_line.line));
+          put(f.v_pred, i, exterior.velocity(state, at_line.line));
           f.m(i) = depth * area;
           f.rho(i) = summed * depth;
           f.rate(i) = 0;

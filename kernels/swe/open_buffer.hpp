@@ -10,6 +10,7 @@
 
 #include "cellgrid/sums.hpp"
 #include "kernels/swe/motion.hpp"
+#include "kernels/swe/open_section.hpp"
 
 namespace freshet::swe {
 
@@ -32,18 +33,6 @@ struct OpenBufferOptions {
   std::optional<Friction> friction;  // the exterior flow's surface falls with it
 };
 
-// A row's state, on both sides of the line.
-struct OpenRow {
-  double bed = 0;                            // m, on the line
-  double level = 0, speed = 0, slip = 0;     // inner state: level [m], velocity inwards and along [m/s]
-  double still = 0;                          // m, level of the water at rest
-  double depth = 0, inward = 0, along = 0;   // exterior state: depth [m], velocity inwards and along [m/s]
-  double mean_speed = 0, mean_celerity = 0;  // m/s, slow means of u and c of the inner state
-  double through = 0;                        // m2/s, inward flow per width: across the line
-  int wet = 0;                               // whether fluid was observed
-  int closed = 0;                            // whether it is a wall for the fluid
-};
-
 struct Crossed {
   double in = 0, out = 0;  // m3
 };
@@ -58,15 +47,15 @@ class OpenBuffer {
   // owner: what the field kind of its boundary particles holds, > 0; fluid is 0.
   OpenBuffer(const OpenLine<D>& line, const OpenBufferOptions& options, int owner);
 
-  // Levels of the bed on the line; call once before the rest.
+  // Levels of the bed on the line; call once.
   void survey(const std::optional<Bed<D>>& bed);
 
   // Shepard means of level and velocity at each row's point on the line, over the fluid within 2h.
   void observe(const Rows& rows, const Particles<D>& p, const Field<int>& kind, const std::optional<Bed<D>>& bed);
 
-  // The rows on the line, from a to b, on the host; give them back to make their exterior state hold.
-  std::vector<OpenRow> rows() const;
-  void set(const std::vector<OpenRow>& rows);
+  // The states of the rows on the line, from a to b, whose exterior states others keep. Call once, before the rest.
+  void take_rows(const OpenRows& rows) { row_ = rows; }
+  int rows() const { return count_; }      // on the line
   double width() const { return width_; }  // m, of a row
   double length() const { return D == 1 ? 1.0 : line_.length; }                      // m
   double smoothing() const { return options_.eta * options_.spacing; }  // m, h of the boundary particles
@@ -99,6 +88,8 @@ class OpenBuffer {
       const double r = ::floor(along(x)) + before;
       return r > 0 ? (r < total - 1 ? static_cast<int>(r) : total - 1) : 0;
     }
+    // Whose state holds in a row: beyond the ends that of the row at the end.
+    KOKKOS_INLINE_FUNCTION int state(int row) const { return smaller(larger(row - before, 0), count - 1); }
     KOKKOS_INLINE_FUNCTION bool on_line(int row) const { return row >= before && row < before + count; }
     KOKKOS_INLINE_FUNCTION Vec<double, D> point(int row, double inside) const {
       return line.origin + inside * line.inward + ((row - before + 0.5) * width) * line.tangent;
@@ -120,7 +111,7 @@ class OpenBuffer {
   double buffer_;  // m, its depth
   double width_ = 1;
   int before_ = 0, count_ = 1, total_ = 1;
-  Kokkos::View<OpenRow*, Memory> row_;
+  OpenRows row_;  // on the line
   Kokkos::View<Extent*, Memory> extent_;
   Field<double> farthest_, nearest_;  // m, outermost and innermost boundary particle of each row
   Field<int> room_, inner_room_;      // boundary particles to insert before each row; of them at the inner edge

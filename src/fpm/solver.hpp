@@ -4,6 +4,7 @@
 #include "kernels/fpm/projection.hpp"
 #include "src/fpm/area_keeper.hpp"
 #include "src/fpm/grading.hpp"
+#include "src/fpm/pressure_probes.hpp"
 #include "src/method.hpp"
 
 namespace freshet::fpm {
@@ -56,6 +57,7 @@ class Solver : public Method {
   linear::BiCgStabReport viscosity_;
   PointCount counts_;
   long limited_ = 0, moved_ = 0;  // points x steps, since t = 0: held within their neighbours' velocities; all
+  mutable PressureProbes probes_;
   mutable Field<double> area_, flow_pressure_;
   double last_dt_ = 0;  // s, 0 before the first step
   int next_id_ = 0;

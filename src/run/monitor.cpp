@@ -75,7 +75,43 @@ int count_bad(const FieldSet& fields, const Allowed& in) {
   return bad;
 }
 
-// The particles on the host. A field that the method does not have reads as zero.
+// The fields of a launch: a fixed number fits its arguments.
+struct FieldGroup {
+  static constexpr int most = 32;
+  Kokkos::Array<const double*, most> data;
+  int count = 0;
+};
+
+int count_not_finite(const FieldGroup& group, int n) {
+  int bad = 0;
+  Kokkos::parallel_reduce(
+      "run::monitor_all", Range(0, (n + lanes - 1) / lanes),
+      KOKKOS_LAMBDA(int b, int& count_of_bad) {
+        for (int f = 0; f < group.count; ++f)
+          for (int i = b * lanes; i < smaller((b + 1) * lanes, n); ++i) {
+            const double value = group.data[f][i];
+            count_of_bad += !(-infinity < value && value < infinity);
+          }
+      },
+      bad);
+  return bad;
+}
+
+// Of every field but scratch (Carry::no), which belongs to no particle and may hold anything.
+int count_not_finite(const FieldSet& fields) {
+  int bad = 0;
+  FieldGroup group;
+  for (const auto& field : fields.reals()) {
+    if (field.carry == Carry::no) continue;
+    group.data[group.count++] = field.data.data();
+    if (group.count < FieldGroup::most) continue;
+    bad += count_not_finite(group, fields.size());
+    group.count = 0;
+  }
+  return group.count > 0 ? bad + count_not_finite(group, fields.size()) : bad;
+}
+
+// The particles on the host, where something is wrong. A field that the method does not have reads as zero.
 class Particles {
  public:
   explicit Particles(const FieldSet& fields) : fields_(fields) {
@@ -114,7 +150,6 @@ class Particles {
  private:
   using Host = decltype(on_host(Field<double>()));
 
-  // Scratch fields (Carry::no) belong to no particle and may hold anything.
   std::string not_finite(int i) const {
     for (std::size_t f = 0; f < host_.size(); ++f) {
       const auto& field = fields_.reals()[f];
@@ -154,7 +189,9 @@ void Monitor::check(const Method& method, const Clock& clock) const {
 }
 
 void Monitor::check_all(const Method& method, const Clock& clock) const {
-  const std::string bad = find_bad(method.fields(), allowed_);
+  const FieldSet& fields = method.fields();
+  const bool sound = count_bad(fields, allowed_) == 0 && count_not_finite(fields) == 0;
+  const std::string bad = sound ? "" : find_bad(fields, allowed_);
   if (!bad.empty()) throw Diverged("the run diverged " + when(clock) + ": " + bad);
   const Totals totals = method.totals();
   const double error = mass_error(totals);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "cellgrid/on_device.hpp"
+
 namespace freshet {
 namespace {
 
@@ -77,26 +79,35 @@ void GaugeRecorder::restore(const Values& values) {
   times_.skip_to(rows);
 }
 
-RunUpRecorder::RunUpRecorder(const std::vector<RunUp>& points)
-    : points_(points), highest_(points.size()) {}
+RunUpRecorder::RunUpRecorder(const std::vector<RunUp>& points) {
+  if (points.empty()) return;
+  std::vector<Shore> shores;
+  for (const RunUp& point : points)
+    shores.push_back({point.at[0], point.at[1], point.radius, point.min_depth});
+  shores_.shore = on_device("run_up.shores", shores);
+  shores_.highest = on_device("run_up.highest", std::vector<WetLevels>(points.size()));
+}
 
 void RunUpRecorder::record(const Method& method) {
-  for (std::size_t k = 0; k < points_.size(); ++k) {
-    const auto& point = points_[k];
-    const WetLevels found = method.highest_wet_levels(point.at, point.radius, point.min_depth);
-    highest_[k] = {std::max(highest_[k].bed, found.bed), std::max(highest_[k].line, found.line)};
-  }
+  if (shores_.shore.extent(0) > 0) method.raise_wet_levels(shores_);
+}
+
+std::vector<WetLevels> RunUpRecorder::highest() const {
+  const auto host = on_host(shores_.highest);
+  return {host.data(), host.data() + host.extent(0)};
 }
 
 void RunUpRecorder::save(Values& values) const {
   std::vector<double>& all = values["run_up"];
   all.clear();
-  for (const WetLevels& w : highest_) all.insert(all.end(), {w.bed, w.line});
+  for (const WetLevels& w : highest()) all.insert(all.end(), {w.bed, w.line});
 }
 
 void RunUpRecorder::restore(const Values& values) {
   const std::vector<double>& all = values.at("run_up");
-  for (std::size_t k = 0; k < highest_.size(); ++k) highest_[k] = {all.at(2 * k), all.at(2 * k + 1)};
+  std::vector<WetLevels> highest;
+  for (std::size_t k = 0; k < all.size(); k += 2) highest.push_back({all.at(k), all.at(k + 1)});
+  if (!highest.empty()) shores_.highest = on_device("run_up.highest", highest);
 }
 
 }  // namespace freshet

@@ -40,19 +40,18 @@ class GaugeRecorder {
   std::vector<PointState> watched_;  // state before the step
 };
 
-// The highest water at each run-up point so far.
+// The highest water at each run-up point so far; kept on the device.
 class RunUpRecorder {
  public:
   explicit RunUpRecorder(const std::vector<RunUp>& points);
   void record(const Method& method);
-  const std::vector<WetLevels>& highest() const { return highest_; }
+  std::vector<WetLevels> highest() const;
 
   void save(Values& values) const;
   void restore(const Values& values);
 
  private:
-  std::vector<RunUp> points_;
-  std::vector<WetLevels> highest_;
+  Shores shores_;
 };
 
 }  // namespace freshet

@@ -1,6 +1,16 @@
 #include "src/scene/open_law.hpp"
 
+#include "cellgrid/on_device.hpp"
+
 namespace freshet {
+namespace {
+
+TimeSeries in_time(const Series& series) {
+  if (series.t.empty()) return {};
+  return {on_device("open.times", series.t), on_device("open.values", series.value)};
+}
+
+}  // namespace
 
 std::function<OpenLaw(double)> law_of(const OpenBoundary& b) {
   using Kind = OpenBoundary::Kind;
@@ -19,6 +29,20 @@ std::function<OpenLaw(double)> law_of(const OpenBoundary& b) {
   }
   if (b.level.t.empty()) return [](double) { return Transmissive{}; };
   return [level = b.level](double t) { return ImposedState{level.at(t), false}; };
+}
+
+LawInTime law_in_time(const OpenBoundary& b) {
+  using Kind = OpenBoundary::Kind;
+  const OpenLaw law = law_of(b)(0);
+  switch (b.kind) {
+    case Kind::elevation:
+    case Kind::wave:
+    case Kind::transmissive: return {law, in_time(b.level), {}};
+    case Kind::velocity: return {law, in_time(b.velocity), {}};
+    case Kind::discharge: return {law, in_time(b.discharge), {}};
+    case Kind::state: break;
+  }
+  return {law, in_time(b.depth.t.empty() ? b.level : b.depth), in_time(b.velocity)};
 }
 
 }  // namespace freshet

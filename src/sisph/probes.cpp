@@ -1,4 +1,5 @@
 // What the run loop asks of the solver's state: totals, point samples, run-up, restart scalars.
+#include "src/point_states.hpp"
 #include "src/scene/names.hpp"
 #include "src/sisph/solver.hpp"
 
@@ -34,19 +35,12 @@ Mechanics Solver<D>::mechanics() const {
 
 template <int D>
 std::vector<PointState> Solver<D>::sample(const std::vector<Point>& points) const {
-  const SortedWater<D> sorted = sorted_water();
-  std::vector<PointState> states;
-  for (const Point& point : points) {
-    const Vec<double, D> place = to_vec<D>(point);
-    const SampledDepth found = sample_depth(sorted, place);
-    states.push_back({bed_ ? bed_->at(place).b : 0.0, found.depth, found.reached});
-  }
-  return states;
+  return point_states(sampler_.sample(sorted_water(), bed_ ? &*bed_ : nullptr, points));
 }
 
 template <int D>
-WetLevels Solver<D>::highest_wet_levels(const Point& point, double radius, double min_depth) const {
-  return freshet::highest_wet_levels<D>(sorted_water(), bed_ ? &*bed_ : nullptr, {to_vec<D>(point), radius, min_depth, scene_.water.spacing});
+void Solver<D>::raise_wet_levels(const Shores& shores) const {
+  freshet::raise_wet_levels<D>(sorted_water(), bed_ ? &*bed_ : nullptr, scene_.water.spacing, shores);
 }
 
 template <int D>

@@ -264,7 +264,7 @@ template <int D>
 void Solver<D>::build_openings() {
   if (scene_.boundaries.empty()) return;
   std::vector<LawInTime> laws;
-  for (const OpenBoundary& boundary : scene_.boundaries) laws.push_back(law_of(boundary));
+  for (const OpenBoundary& boundary : scene_.boundaries) laws.push_back(law_in_time(boundary));
   open_.emplace(std::move(laws), rim_places(), traced());
 }
 

@@ -42,7 +42,7 @@ class Solver : public Method {
   Mechanics mechanics() const override;
   StepReport report() const override { return report_; }
   std::vector<PointState> sample(const std::vector<Point>& points) const override;
-  WetLevels highest_wet_levels(const Point& at, double radius, double min_depth) const override;
+  void raise_wet_levels(const Shores& shores) const override;
   std::vector<std::string> features() const override;
   std::vector<std::string> notes() const override;
   ScalarState scalars() const override;
@@ -123,6 +123,7 @@ class Solver : public Method {
   StepReport report_;
   Totals passed_;         // inflow and outflow since t = 0
   double speed_ = 0, celerity_ = 0;  // m/s, largest
+  mutable Sampler<D> sampler_;
 };
 
 }  // namespace freshet::sisph

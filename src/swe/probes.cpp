@@ -1,7 +1,7 @@
 // What the run loop asks of the solver's state: totals, point samples, run-up, restart scalars.
 #include "cellgrid/launch.hpp"
-#include "kernels/sampling.hpp"
 #include "src/errors.hpp"
+#include "src/point_states.hpp"
 #include "src/scene/names.hpp"
 #include "src/swe/solver.hpp"
 
@@ -31,7 +31,7 @@ Totals Solver<D>::totals() const {
     return Addends<1>{open && kinds(i) != 0 ? 0.0 : p.m(i)};
   })[0];
   for (const auto& boundary : boundaries_) {
-    const OpenFlow& flow = boundary.flow();
+    const OpenFlow flow = boundary.flow();
     totals.inflow += flow.inflow;
     totals.outflow += flow.outflow;
     totals.flux += flow.flux;
@@ -66,19 +66,13 @@ Mechanics Solver<D>::mechanics() const {
 template <int D>
 std::vector<PointState> Solver<D>::sample(const std::vector<Point>& points) const {
   const SortedWater<D> water = sorted_water<D>(order_.rows(), bind(), kind());
-  std::vector<PointState> states;
-  for (const Point& point : points) {
-    const Vec<double, D> place = to_vec<D>(point);
-    const SampledDepth found = sample_depth(water, place);
-    states.push_back({bed_ ? bed_->spline.at(place).b : 0.0, found.depth, found.reached});
-  }
-  return states;
+  return point_states(sampler_.sample(water, bed_ ? &bed_->spline : nullptr, points));
 }
 
 template <int D>
-WetLevels Solver<D>::highest_wet_levels(const Point& point, double radius, double min_depth) const {
-  return freshet::highest_wet_levels<D>(sorted_water<D>(order_.rows(), bind(), kind()), bed_ ? &bed_->spline : nullptr,
-                                        {to_vec<D>(point), radius, min_depth, scene_.water.spacing});
+void Solver<D>::raise_wet_levels(const Shores& shores) const {
+  const SortedWater<D> water = sorted_water<D>(order_.rows(), bind(), kind());
+  freshet::raise_wet_levels<D>(water, bed_ ? &bed_->spline : nullptr, scene_.water.spacing, shores);
 }
 
 template <int D>

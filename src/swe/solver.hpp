@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "cellgrid/sums.hpp"
+#include "kernels/sampling.hpp"
 #include "kernels/swe/density.hpp"
 #include "kernels/swe/internal_force.hpp"
 #include "kernels/swe/motion.hpp"
@@ -31,7 +32,7 @@ class Solver : public Method {
   StepReport report() const override { return report_; }
   std::map<std::string, Work> work() const override;  // src/swe/work.cpp
   std::vector<PointState> sample(const std::vector<Point>& points) const override;
-  WetLevels highest_wet_levels(const Point& at, double radius, double min_depth) const override;
+  void raise_wet_levels(const Shores& shores) const override;
   std::vector<std::string> features() const override;
   ScalarState scalars() const override;
   void restore(const ScalarState& scalars) override;
@@ -79,6 +80,7 @@ class Solver : public Method {
   std::vector<OpenBoundary<D>> boundaries_;
   std::optional<Refinement<D>> refinement_;
   StepReport report_;
+  mutable Sampler<D> sampler_;
   double crossing_time_ = 0;  // s, least h / (c + signal)
   int next_id_ = 0;
 };

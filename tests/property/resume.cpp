@@ -39,9 +39,7 @@ class Interrupted : public Method {
   std::vector<PointState> sample(const std::vector<Point>& points) const override {
     return method_.sample(points);
   }
-  WetLevels highest_wet_levels(const Point& at, double radius, double min_depth) const override {
-    return method_.highest_wet_levels(at, radius, min_depth);
-  }
+  void raise_wet_levels(const Shores& shores) const override { method_.raise_wet_levels(shores); }
   std::vector<std::string> features() const override { return method_.features(); }
   ScalarState scalars() const override { return method_.scalars(); }
   void restore(const ScalarState& scalars) override { method_.restore(scalars); }

@@ -80,13 +80,15 @@ class FakeMethod : public Method {
     return states;
   }
 
-  WetLevels highest_wet_levels(const Point& at, double radius, double min_depth) const override {
-    WetLevels highest;
-    for (int i = 0; i < fields_.size(); ++i) {
-      if (distance(i, at) <= radius && get("depth")(i) >= min_depth)
-        highest.bed = highest.line = std::max(highest.bed, get("bed")(i));
+  void raise_wet_levels(const Shores& shores) const override {
+    for (std::size_t k = 0; k < shores.shore.extent(0); ++k) {
+      const Shore& shore = shores.shore(k);
+      WetLevels& highest = shores.highest(k);
+      for (int i = 0; i < fields_.size(); ++i) {
+        if (distance(i, {shore.x, shore.y}) <= shore.radius && get("depth")(i) >= shore.min_depth)
+          highest.bed = highest.line = std::max(highest.bed, get("bed")(i));
+      }
     }
-    return highest;
   }
 
   std::vector<std::string> features() const override { return {"flight"}; }

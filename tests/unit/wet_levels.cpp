@@ -1,6 +1,7 @@
 // The highest water on a slope: beds rise from particle to particle, the waterline is that of the water.
 #include <catch2/catch.hpp>
 
+#include "src/run/stations.hpp"
 #include "tests/support/scenes.hpp"
 
 using namespace freshet;
@@ -9,6 +10,12 @@ namespace {
 
 constexpr double slope = 0.25, spacing = 0.02, least = 1e-3;  // m, m
 
+WetLevels highest(const Scene& scene, const RunUp& at) {
+  RunUpRecorder recorder({at});
+  recorder.record(*make_method(scene));
+  return recorder.highest()[0];
+}
+
 WetLevels of_lake(const std::string& method, double surface) {
   Scene scene = test::bare_scene(1, {0, 0}, {2, 0}, spacing);
   scene.method = method;
@@ -16,7 +23,7 @@ WetLevels of_lake(const std::string& method, double surface) {
   scene.bed.elevation = [](double x, double) { return slope * (x - 1); };
   scene.water.surface = [surface](double, double) { return surface; };
   test::close_box(scene);
-  return make_method(scene)->highest_wet_levels({1, 0}, 0.5, least);
+  return highest(scene, {"", {1, 0}, 0.5, least, {}});
 }
 
 }  // namespace
@@ -44,5 +51,5 @@ TEST_CASE("run-up: the explicit method reads the same waterline to half a rise o
 TEST_CASE("run-up: none where the place is dry") {
   Scene scene = test::bare_scene(1, {0, 0}, {2, 0}, spacing);
   scene.water.depth = [](double x, double) { return x < 1 ? 1.0 : 0.0; };
-  CHECK(make_method(scene)->highest_wet_levels({1.5, 0}, 0.2, least).bed == -1e300);
+  CHECK(highest(scene, {"", {1.5, 0}, 0.2, least, {}}).bed == -1e300);
 }

@@ -1,0 +1,45 @@
+// Laws of open boundaries whose values follow series of time, on the device: for boundaries that look at
+// other times in each place.
+#pragma once
+#include "kernels/open_states.hpp"
+
+namespace freshet {
+
+// Linear between its times, constant before and after; without entries 0.
+struct TimeSeries {
+  Field<double> t, value;  // s, SI
+
+  KOKKOS_INLINE_FUNCTION double at(double time) const {
+    int i = 0, end = t.extent_int(0);
+    const int count = end;
+    while (i < end) {  // to the first time after
+      const int middle = (i + end) / 2;
+      if (time < t(middle)) end = middle;
+      else i = middle + 1;
+    }
+    if (count == 0) return 0;
+    if (i == 0) return value(0);
+    if (i == count) return value(count - 1);
+    const double part = (time - t(i - 1)) / (t(i) - t(i - 1));
+    return value(i - 1) + part * (value(i) - value(i - 1));
+  }
+};
+
+// law: of the boundary's kind, with what does not change. first, second: the series of what it imposes, as
+// set_values takes them.
+struct LawInTime {
+  OpenLaw law;
+  TimeSeries first, second;
+};
+
+// What a law imposes [SI].
+KOKKOS_INLINE_FUNCTION void set_values(ImposedLevel& law, double level, double) { law.level = level; }
+KOKKOS_INLINE_FUNCTION void set_values(IncomingWave& law, double level, double) { law.level = level; }
+KOKKOS_INLINE_FUNCTION void set_values(ImposedVelocity& law, double inward, double) { law.inward = inward; }
+KOKKOS_INLINE_FUNCTION void set_values(ImposedDischarge& law, double total, double) { law.total = total; }
+KOKKOS_INLINE_FUNCTION void set_values(ImposedState& law, double stage, double inward) {
+  law.stage = stage, law.inward = inward;
+}
+KOKKOS_INLINE_FUNCTION void set_values(Transmissive&, double, double) {}
+
+}  // namespace freshet
