@@ -92,5 +92,6 @@ elseif(NOT FRESHET_BACKEND AND "${Kokkos_DEVICES}" STREQUAL "SERIAL")
   message(WARNING "This Kokkos has the Serial backend only: Freshet will run on one thread. tools/setup builds one with OpenMP.")
 endif()
 if("CUDA" IN_LIST Kokkos_DEVICES AND NOT "CUDA_CONSTEXPR" IN_LIST Kokkos_OPTIONS)
-  message(WARNING "This Kokkos was built without Kokkos_ENABLE_CUDA_CONSTEXPR=ON: kernels that use std::optional or std::array lose them.")
+  message(WARNING "This Kokkos was built without Kokkos_ENABLE_CUDA_CONSTEXPR=ON: nvcc drops what kernels "
+                  "do with std::optional and std::array.")
 endif()
