@@ -91,3 +91,7 @@ elseif(FRESHET_BACKEND AND NOT FRESHET_BACKEND MATCHES "^(Serial|Threads)$")
 elseif(NOT FRESHET_BACKEND AND "${Kokkos_DEVICES}" STREQUAL "SERIAL")
   message(WARNING "This Kokkos has the Serial backend only: Freshet will run on one thread. tools/setup builds one with OpenMP.")
 endif()
+if("CUDA" IN_LIST Kokkos_DEVICES AND NOT "CUDA_CONSTEXPR" IN_LIST Kokkos_OPTIONS)
+  message(WARNING "This Kokkos was built without Kokkos_ENABLE_CUDA_CONSTEXPR=ON: nvcc drops what kernels "
+                  "do with std::optional and std::array.")
+endif()
