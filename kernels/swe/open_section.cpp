@@ -88,7 +88,7 @@ void OpenSection::fill_gaps() const {
         int source = -1;
         for (int away = 1; away < n && source < 0; ++away) {
           if (r - away >= 0 && rows(r - away).wet) source = r - away;
-          if (source < 0 && r + away < n && rows(r + away).wet) source = r + away;
+          if (r + away < n && rows(r + away).wet) source = r + away;
         }
         row.level = source < 0 ? row.bed : rows(source).level;
         row.speed = source < 0 ? 0.0 : rows(source).speed;

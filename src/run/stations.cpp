@@ -1,6 +1,5 @@
 #include "src/run/stations.hpp"
 
-#include <algorithm>
 #include <filesystem>
 
 #include "cellgrid/on_device.hpp"
