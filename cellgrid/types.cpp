@@ -5,6 +5,17 @@ namespace freshet {
 template <class T>
 Field<T>::Field(const std::string& label, size_t values) : View(label, values) {}
 
+#if !defined(KOKKOS_ENABLE_CUDA) && !defined(KOKKOS_ENABLE_HIP)
+template <class T>
+Field<T>::Field(const Field& other) noexcept : View(other) {}
+template <class T>
+Field<T>& Field<T>::operator=(const Field& other) noexcept {
+  return View::operator=(other), *this;
+}
+template <class T>
+Field<T>::~Field() = default;
+#endif
+
 template class Field<double>;
 template class Field<int>;
 

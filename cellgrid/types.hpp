@@ -23,13 +23,21 @@ using Memory = Exec::memory_space;
 #endif
 using Range = Kokkos::RangePolicy<Exec>;
 
-// One value per particle: a view whose allocation is compiled once, not in every source that makes one.
+// One value per particle: a view that is allocated, copied and let go of by functions compiled once, not in every source.
 template <class T>
 class Field : public Kokkos::View<T*, Memory> {
  public:
   using View = Kokkos::View<T*, Memory>;
+  static_assert(std::is_same_v<T, double> || std::is_same_v<T, int>, "types.cpp has functions for these alone: use a Kokkos::View");
 
   Field() = default;
+#if !defined(KOKKOS_ENABLE_CUDA) && !defined(KOKKOS_ENABLE_HIP)  // out of line: passes copy dozens, each a call and three branches
+  Field(const Field& other) noexcept;
+  Field(Field&& other) noexcept : View(static_cast<View&&>(other)) {}
+  Field& operator=(const Field& other) noexcept;
+  Field& operator=(Field&& other) noexcept { return View::operator=(static_cast<View&&>(other)), *this; }
+  ~Field();
+#endif
   Field(const std::string& label, size_t values);  // zeros
   explicit Field(const std::string& label) : Field(label, 0) {}
   // Kokkos::ViewAllocateWithoutInitializing(label)

@@ -49,7 +49,7 @@ struct Raise {
   Shores shores;
 
   KOKKOS_INLINE_FUNCTION void operator()(int k) const {
-    const Shore& shore = shores.shore(k);
+    const ShorePlace& shore = shores.shore(k);
     const Vec<double, D> place = to_vec<D>(shore.x, shore.y);
     WetLevels highest = shores.highest(k);
     for_each_near(water, place, shore.radius, [&](int j) {

@@ -122,7 +122,7 @@ struct WallView {
   Field<double> share;             // of the virtual mass: about 1; rows: the area of each point [m2] (1-D: m)
   NeighbourView near;              // wall points by cluster
   Field<int> segment;              // of each wall point
-  Field<WallSegment> segments;
+  Kokkos::View<WallSegment*, Memory> segments;
   SegmentBins bins;                // of the segments
   double deepest = 0;              // m, how far behind a wall a particle is still caught
 
@@ -252,7 +252,7 @@ class Walls {
   WallKind kind_;
   Stretch stretch_;
   double reach_;  // x h, how far wall points count
-  Field<WallSegment> segments_;
+  Kokkos::View<WallSegment*, Memory> segments_;
   SegmentBins bins_;
   double depth_;  // m, how far behind a wall a particle is still caught
 };

@@ -12,13 +12,13 @@ struct WetLevels {
 };
 
 // Which water counts: at least min_depth [m] deep, within radius [m] of the place (1-D: y = 0).
-struct Shore {
+struct ShorePlace {
   double x, y, radius, min_depth;
 };
 
 // Shores and the highest water that each has seen so far, on the device.
 struct Shores {
-  Kokkos::View<Shore*, Memory> shore;
+  Kokkos::View<ShorePlace*, Memory> shore;
   Kokkos::View<WetLevels*, Memory> highest;
 };
 

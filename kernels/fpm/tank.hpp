@@ -39,7 +39,7 @@ struct Footing {
 
 // The sides as the device sees them.
 struct TankView {
-  Field<Side> sides;
+  Kokkos::View<Side*, Memory> sides;
   SegmentBins bins;  // of the sides
 
   KOKKOS_INLINE_FUNCTION int size() const { return sides.extent_int(0); }

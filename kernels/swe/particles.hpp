@@ -8,8 +8,8 @@ namespace freshet::swe {
 
 // What pairs see of a neighbour beside its position, in single precision (single.hpp); empty = pairs are summed in double.
 struct SingleCopies {
-  Field<SingleRecord<4>> motion;  // of the density
-  Field<SingleRecord<16>> state;  // of the force
+  Kokkos::View<SingleRecord<4>*, Memory> motion;  // of the density
+  Kokkos::View<SingleRecord<16>*, Memory> state;  // of the force
 
   KOKKOS_INLINE_FUNCTION bool on() const { return motion.extent(0) > 0; }
 };

@@ -80,7 +80,7 @@ void GaugeRecorder::restore(const Values& values) {
 
 RunUpRecorder::RunUpRecorder(const std::vector<RunUp>& points) {
   if (points.empty()) return;
-  std::vector<Shore> shores;
+  std::vector<ShorePlace> shores;
   for (const RunUp& point : points)
     shores.push_back({point.at[0], point.at[1], point.radius, point.min_depth});
   shores_.shore = on_device("run_up.shores", shores);

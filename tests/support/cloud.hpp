@@ -211,8 +211,8 @@ class Cloud {
 
   // Pairs in single precision from here on.
   void use_single() {
-    single.motion = Field<SingleRecord<4>>(Kokkos::view_alloc("motion"), static_cast<std::size_t>(fields.size()));
-    single.state = Field<SingleRecord<16>>(Kokkos::view_alloc("state"), static_cast<std::size_t>(fields.size()));
+    single.motion = Kokkos::View<SingleRecord<4>*, Memory>(Kokkos::view_alloc("motion"), static_cast<std::size_t>(fields.size()));
+    single.state = Kokkos::View<SingleRecord<16>*, Memory>(Kokkos::view_alloc("state"), static_cast<std::size_t>(fields.size()));
   }
 
   // The field's values in the order of the ids.

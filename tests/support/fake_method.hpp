@@ -82,7 +82,7 @@ class FakeMethod : public Method {
 
   void raise_wet_levels(const Shores& shores) const override {
     for (std::size_t k = 0; k < shores.shore.extent(0); ++k) {
-      const Shore& shore = shores.shore(k);
+      const ShorePlace& shore = shores.shore(k);
       WetLevels& highest = shores.highest(k);
       for (int i = 0; i < fields_.size(); ++i) {
         if (distance(i, {shore.x, shore.y}) <= shore.radius && get("depth")(i) >= shore.min_depth)
