@@ -78,6 +78,7 @@ class MovingWater {
 
  public:  // device lambdas may not live in private members
   void list_pairs(const Swarm<D>& now, double skin);
+  void visit_all(int slices);
   void start(const Swarm<D>& now);
   void place(const Swarm<D>& now, const BedSpline<D>* bed, const PathWeights& path, double dt);
   void place_images(const Swarm<D>& now);
@@ -95,7 +96,6 @@ class MovingWater {
  private:
   double reach(double dt, double jump) const;
   void make_room();
-  void visit_all(int slices);
 
   MovingOptions options_;
   Shapes<D> shapes_;

@@ -9,14 +9,12 @@
 #include "tests/support/skips.hpp"
 
 using namespace freshet;
-using test::StepTraffic, test::Waits;
+using test::StepTraffic, test::Waits, test::sums;
 using Kind = freshet::OpenBoundary::Kind;
 
 namespace {
 
 constexpr std::size_t most_bytes = 1024;
-const std::string sums = "copy cellgrid.partial_sums";
-
 // The traffic of the steps from `first` to `last`, as the program takes them.
 std::vector<StepTraffic> traffic_of(const Scene& scene, long first, long last) {
   const test::Scratch scratch;
@@ -168,7 +166,8 @@ TEST_CASE("host traffic: semi-implicit, at rest") {
 TEST_CASE("host traffic: semi-implicit, moving with the water") {
   const Waits step{{"run::monitor", 1}, {"sisph::deepest", 1}, {"sisph::fastest", 1}, {"sisph::jump", 2},
                    {"sisph::shallowest", 2}, {"cellgrid::extent", 1}, {"cellgrid::largest_h", 1},
-                   {"copy cellgrid.block", 1}, {"copy cellgrid.start", 1}, {"copy cellgrid.pair_start", 1}};
+                   {"copy cellgrid.block", 1}, {"copy cellgrid.start", 1}, {"copy cellgrid.row_start", 1},
+                   {"copy cellgrid.pair_start", 1}};
   check_implicit_steps(test::read_case("sisph_hump", {"sisph.formulation=moving"}), step, 2, 4);
 }
 

@@ -29,6 +29,17 @@ struct StepTraffic {
 
 inline StepTraffic* traffic = nullptr;
 
+// Sums over particles (cellgrid/sums.hpp) are counted together.
+inline const std::string sums = "sums";
+inline bool is_sum(const char* label) {
+  static const std::set<std::string> labels{
+      "swe::mass", "swe::mechanics", "open::convert", "open::straddling", "sisph::mass", "sisph::mechanics", "sisph::coefficients",
+      "sisph::limit_outflow", "sisph::residual", "sisph::product", "sisph::clip", "sisph::rim_flow", "sisph::increment",
+      "cg::residual", "cg::advance", "linear::dot", "linear::dots", "linear::subtract_from", "bicgstab::step_along",
+      "bicgstab::advance", "point_mesh::weight", "fpm::mean", "fpm::speed", "fpm::mechanics", "fpm::area"};
+  return labels.count(label) > 0;
+}
+
 // Records for the length of a scope. Where host and device share memory a copy to or from a mirror is one of
 // a view to itself. A reduction's result and a number read from a view go to the host; so does the sum of the
 // scans named here. Fills and copies on the device are waits alone.
@@ -45,7 +56,7 @@ class TrafficRecording {
       crosses ? traffic->copied(from, bytes) : void(++traffic->waits["device " + std::string(to)]);
     });
     tools::set_begin_parallel_reduce_callback(
-        [](const char* label, const uint32_t, uint64_t*) { ++traffic->waits[label]; });
+        [](const char* label, const uint32_t, uint64_t*) { ++traffic->waits[is_sum(label) ? sums : label]; });
     tools::set_begin_parallel_scan_callback([](const char* label, const uint32_t, uint64_t*) {
       static const std::set<std::string> with_result{"split::choose", "sisph::place_slots", "sisph::list_active",
                                                      "fpm::new_places"};
