@@ -29,7 +29,7 @@ Unrest after(double t, const std::vector<std::string>& overrides) {
 
 }  // namespace
 
-TEST_CASE("Still water stays still for 3 s from p = 0, on a lattice and on a jittered one") {
+TEST_CASE("Still water stays still for 3 s from p = 0, on a lattice and on a jittered one", "[slow]") {
   // The quadratic basis holds a linear pressure exactly: what is left is the solver's tolerance of 1e-9.
   const std::string disorder = GENERATE("water.disorder=0", "water.disorder=0.2");
   const std::string walls = GENERATE("fpm.walls=\"no-slip\"", "fpm.walls=\"slip\"");
@@ -39,7 +39,7 @@ TEST_CASE("Still water stays still for 3 s from p = 0, on a lattice and on a jit
   CHECK(rest.pressure <= 1e-9);
 }
 
-TEST_CASE("Still water without viscosity stays still for 10 s on jittered points") {
+TEST_CASE("Still water without viscosity stays still for 10 s on jittered points", "[slow]") {
   // Before velocities were smoothed at edges, waves of two spacings next to walls and surface grew e-fold in 0.12 s.
   const std::string disorder = GENERATE("water.disorder=0.2", "water.disorder=0.3");
   const Unrest rest = after(10, {disorder, "fluid.viscosity=0", "time.end=10"});
@@ -48,7 +48,7 @@ TEST_CASE("Still water without viscosity stays still for 10 s on jittered points
   CHECK(rest.pressure <= 1e-9);
 }
 
-TEST_CASE("Still water is lost by both updates as printed, kept by the plain one with consistent walls") {
+TEST_CASE("Still water is lost by both updates as printed, kept by the plain one with consistent walls", "[slow]") {
   // The printed walls fix the slope of the pressure there: the incremental form cannot learn it, the plain one pushes water off them.
   const auto lost = [](const std::string& scheme, double pressure) {
     try {

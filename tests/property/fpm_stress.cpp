@@ -65,7 +65,7 @@ TEST_CASE("stress: still boxes of any size, spacing and disorder stay sound") {
                                 "wall.0.line=[[0, 150], [0, 0], [100, 0], [100, 150]]"});
 }
 
-TEST_CASE("stress: fronts that collide, drops on a pool and jets run to the end") {
+TEST_CASE("stress: fronts that collide, drops on a pool and jets run to the end", "[slow]") {
   for (const char* cfl : {"time.cfl=0.15", "time.cfl=0.5"}) {
     require_ran("fpm_fronts", 0.4, {cfl});
     require_ran("fpm_drop_on_pool", 0.25, {cfl});

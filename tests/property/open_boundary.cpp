@@ -195,7 +195,7 @@ void check_books(const Scene& scene, double end) {
 
 }  // namespace
 
-TEST_CASE("open boundary: counted water is the water that flowed") {
+TEST_CASE("open boundary: counted water is the water that flowed", "[slow]") {
   const int dimension = GENERATE(1, 2);
   const Kind kind = GENERATE(Kind::wave, Kind::elevation);
   CAPTURE(dimension, static_cast<int>(kind));

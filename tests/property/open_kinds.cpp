@@ -57,7 +57,7 @@ Scene uniform(int dimension, int set) {
 
 }  // namespace
 
-TEST_CASE("open kinds: uniform flow stays uniform") {
+TEST_CASE("open kinds: uniform flow stays uniform", "[slow]") {
   const int dimension = GENERATE(1, 2), set = GENERATE(0, 1, 2, 3);
   CAPTURE(dimension, set);
   Flow flow(uniform(dimension, set));
@@ -202,7 +202,7 @@ Scene dry_start(int dimension, double boundary_spacing) {
 
 }  // namespace
 
-TEST_CASE("open kinds: a hydrograph on a dry bed brings its volume") {
+TEST_CASE("open kinds: a hydrograph on a dry bed brings its volume", "[slow]") {
   const int dimension = GENERATE(1, 2);
   const double spacing = GENERATE(0.25, 0.5, 0.75);
   CAPTURE(dimension, spacing);

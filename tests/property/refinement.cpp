@@ -130,7 +130,7 @@ TEST_CASE("refinement: a free drop that splits and merges as it goes keeps mass 
   CHECK(std::abs(momentum() - before) < 1e-12 * mass);  // speeds of order 1 m/s; pairs that cancel
 }
 
-TEST_CASE("refinement: half a lake split stays calm") {
+TEST_CASE("refinement: half a lake split stays calm", "[slow]") {
   Scene scene = test::bare_scene(2, {0, 0}, {1, 0.5}, 0.05);
   scene.water.depth = [](double, double) { return 0.5; };
   scene.water.disorder = GENERATE(0.0, 1e-5, 1e-4);  // which particles push past each other at the seam is chance

@@ -26,7 +26,7 @@ double highest(const Flow& flow) {
 
 }  // namespace
 
-TEST_CASE("sisph moving: large steps are stable, on a lattice and in disorder") {
+TEST_CASE("sisph moving: large steps are stable, on a lattice and in disorder", "[slow]") {
   constexpr double amplitude = 0.01;
   const double disorder = GENERATE(0.0, 0.2), theta = GENERATE(0.5, 0.55, 1.0), courant = GENERATE(5.0, 10.0, 20.0, 50.0);
   Scene scene = hump(amplitude);

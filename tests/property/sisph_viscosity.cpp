@@ -74,7 +74,7 @@ double decay_error(double spacing, double disorder) {
 
 }  // namespace
 
-TEST_CASE("sisph viscosity: water on a slope between walls that hold it takes the parabolic profile") {
+TEST_CASE("sisph viscosity: water on a slope between walls that hold it takes the parabolic profile", "[slow]") {
   const auto momentum = GENERATE(Sisph::Momentum::semi_lagrangian, Sisph::Momentum::mass_flux);
   const double coarse = profile_error(0.1, momentum, 0), fine = profile_error(0.05, momentum, 0);
   CAPTURE(static_cast<int>(momentum), coarse, fine);

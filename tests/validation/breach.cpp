@@ -18,6 +18,6 @@ void check_breach(const std::vector<std::string>& overrides) {
 
 }  // namespace
 
-TEST_CASE("breach: twice the spacing floods six hours and keeps the hydrograph's water") { check_breach({"water.spacing=30", "raster.maxima=false"}); }
+TEST_CASE("breach: twice the spacing floods six hours and keeps the hydrograph's water", "[slow]") { check_breach({"water.spacing=30", "raster.maxima=false"}); }
 
 TEST_CASE("breach: the flood of six hours keeps the hydrograph's water", "[long]") { check_breach({}); }

@@ -99,7 +99,7 @@ TEST_CASE("transcritical flow over a bump: steady, its discharge", "[long]") {
   CHECK(s.discharge_error(exact_of(scene).discharge()) < 0.01);
 }
 
-TEST_CASE("supercritical flow over a bump: steady, its discharge") {
+TEST_CASE("supercritical flow over a bump: steady, its discharge", "[slow]") {
   const Scene scene = test::read_case("bump_iii");
   const Steady s = run_to_steady(scene, 5);
   CHECK(s.change() < 1e-4);

@@ -49,7 +49,7 @@ double outermost(const Fluid& fluid) {
 
 }  // namespace
 
-TEST_CASE("the circular dam break on wet ground is as accurate as the best known of the scheme") {
+TEST_CASE("the circular dam break on wet ground is as accurate as the best known of the scheme", "[slow]") {
   // A prototype on a disc of 640 m reached 0.0123/0.0076, 0.0144/0.0097, 0.0162/0.0118; the thesis prints 0.014/0.007,
   // 0.015/0.009, 0.016/0.011. The bounds are the prototype's, rounded up by 2 to 6 %.
   constexpr Bound bounds[] = {{10, 0.013, 0.008}, {30, 0.015, 0.010}, {50, 0.0165, 0.012}};

@@ -57,7 +57,7 @@ double highest(const std::vector<Sample>& s, double from, double to) {
 
 }  // namespace
 
-TEST_CASE("fpm: a standing wave has the period of linear theory and keeps its height for five periods") {
+TEST_CASE("fpm: a standing wave has the period of linear theory and keeps its height for five periods", "[slow]") {
   test::FlowRun run("fpm_sloshing");
   const auto level = record(run, 6, 1);  // at the right wall
   const double period = 1.1818;

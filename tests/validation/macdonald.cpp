@@ -59,7 +59,7 @@ TEST_CASE("MacDonald's channels, subcritical and transcritical: steady, their de
 
 // First order, with the margin of the lake at rest. Over the whole channel the error falls less evenly: that at the inflow, where
 // nothing corrects the level seen before the line for the slope of the surface, is left.
-TEST_CASE("MacDonald's channels converge inside") {
+TEST_CASE("MacDonald's channels converge inside", "[slow]") {
   const std::string name = GENERATE("macdonald", "macdonald_transcritical");
   CAPTURE(name);
   CHECK(std::log2(depth_error_inside(name, "10") / depth_error_inside(name, "5")) > 0.9);

@@ -14,7 +14,7 @@ struct Rest {
 
 }  // namespace
 
-TEST_CASE("still water among curved and slanting walls stays still at all times") {
+TEST_CASE("still water among curved and slanting walls stays still at all times", "[slow]") {
   const Rest rest = GENERATE(Rest{"rest_circle", 0.004}, Rest{"rest_corner_300", 0.008}, Rest{"rest_corner_345", 0.008});
   CAPTURE(rest.name);
   const Summary s = test::run_case(rest.name);

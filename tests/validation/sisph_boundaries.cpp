@@ -176,7 +176,7 @@ TEST_CASE("sisph: a wave runs through a channel of disordered particles between 
   CHECK(std::abs(totals.mass - mass - totals.inflow + totals.outflow) <= 1e-13 * 20);
 }
 
-TEST_CASE("sisph: uniform flow down a slope against friction") {
+TEST_CASE("sisph: uniform flow down a slope against friction", "[slow]") {
   const double courant = GENERATE(1.0, 5.0);
   Scene scene = channel(200, 100);
   const double slope = 1e-3, n = 0.03, speed = std::sqrt(slope) / n;  // 1 m deep

@@ -21,7 +21,7 @@ double error(Keys keys, int n) {
 
 }  // namespace
 
-TEST_CASE("sisph: every kernel converges, on particles at rest and moving", "[sisph]") {
+TEST_CASE("sisph: every kernel converges, on particles at rest and moving", "[sisph][slow]") {
   // At l = 1.5 dx wider kernels smooth more: quintic and Gaussian (3 l) have a third more error than the cubic spline (2 l).
   for (const auto& [kernel, name] : kernel_names())
     for (const char* formulation : {"at-rest", "moving"}) {

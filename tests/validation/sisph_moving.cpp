@@ -126,7 +126,7 @@ double place_error(const std::string& paths, double dt) {
 
 }  // namespace
 
-TEST_CASE("sisph moving: places of particles in time, rule by rule", "[sisph]") {
+TEST_CASE("sisph moving: places of particles in time, rule by rule", "[sisph][slow]") {
   // From steps of 0.01 to 0.005 s (celerity Courant numbers of 25 and 13): the error of the step is nearly all there is.
   for (const auto& [paths, least, most] : {std::tuple{"euler", 0.9, 1.3}, {"theta", 1.85, 2.2}, {"rk2", 1.85, 2.2}, {"rk3", 1.85, 2.3}, {"leap-frog", 1.85, 2.2}}) {
     const double e[] = {place_error(paths, 0.01), place_error(paths, 0.005)};

@@ -29,7 +29,7 @@ void check_ways(const test::CaseRun& run) {
 
 }  // namespace
 
-TEST_CASE("sisph: water circling in a bowl, lattice and disorder", "[sisph]") {
+TEST_CASE("sisph: water circling in a bowl, lattice and disorder", "[sisph][slow]") {
   const bool lattice = GENERATE(true, false);
   const test::CaseRun run = bowl("thacker", {lattice ? "water.disorder=0" : "water.disorder=0.2"});
   CAPTURE(lattice, run.summary.errors.depth_l2_rel);
@@ -55,7 +55,7 @@ TEST_CASE("sisph: the error in the bowl falls with the spacing", "[sisph]") {
   }
 }
 
-TEST_CASE("sisph: a landslide's wave on a beach at a celerity Courant number of 5", "[sisph]") {
+TEST_CASE("sisph: a landslide's wave on a beach at a celerity Courant number of 5", "[sisph][slow]") {
   const Keys keys{"scene.method=sisph", "water.start=cells", "sisph.theta=0.5", "sisph.courant=5", "output.every=0"};
   const Summary summary = test::run_case("beach_wave", keys);
   REQUIRE(summary.errors_at.size() == 3);

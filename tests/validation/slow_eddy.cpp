@@ -44,7 +44,7 @@ TEST_CASE("sisph: a slow eddy needs a fiftieth of the explicit method's steps an
   CHECK(50 * semi_implicit.steps < explicit_method.steps);
 }
 
-TEST_CASE("sisph: a slow eddy is stable at celerity Courant numbers of 5 and 50", "[sisph]") {
+TEST_CASE("sisph: a slow eddy is stable at celerity Courant numbers of 5 and 50", "[sisph][slow]") {
   CHECK(run(0.1, {"sisph.courant=5"}).velocity_rms < 2e-5);   // measured 1.4e-5
   CHECK(run(0.1, {"sisph.courant=50"}).velocity_rms < 8e-5);  // measured 6.0e-5, in 40 steps
 }
