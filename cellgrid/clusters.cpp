@@ -26,6 +26,7 @@ void ClusterSet::cut(const Rows& rows, int later) {
   const Field<int> first = first_, count = count_;
   launch("cellgrid::cut_clusters", Range(0, rows.rows), KOKKOS_LAMBDA(int row) {
         const int begin = r.row_begin(row), end = r.row_begin(row + 1);
+        if (begin == end) return;
         int c = row_start(row);
         for (int i = begin - later; i < end; i += lanes, ++c) {
           first(c) = larger(i, begin);

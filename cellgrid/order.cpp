@@ -110,7 +110,7 @@ void set_places(const Field<int>& start, int stride) {
 
 template <class View>
 void reserve(View& view, const char* label, int n) {
-  if (view.extent_int(0) < n) view = View(Kokkos::ViewAllocateWithoutInitializing(label), static_cast<size_t>(n + n / 2));
+  if (view.extent_int(0) < n) view = View(Kokkos::ViewAllocateWithoutInitializing(label), static_cast<size_t>(n) + n / 2);
 }
 
 // Cells of a width that cover a length; a period's own rounding makes no further one.

@@ -8,8 +8,8 @@
 
 namespace freshet {
 
-// A sum as three integers, in units of 2^(32 top), 2^(32 (top - 1)) and 2^(32 (top - 2)). top: where the largest term so far
-// begins. Exact for 1e9 terms. Terms of 2^960 and more count as infinite, what lies below 2^-928 as zero.
+// A sum as three integers, in units of 2^(32 top), 2^(32 (top - 1)) and 2^(32 (top - 2)). top: the place of the largest term so
+// far. Exact for 1e9 terms. Terms of 2^959 and more count as infinite, what lies below 2^-928 as zero.
 class IntegerSum {
  public:
   static constexpr int bits = 32, parts = 3, lowest = -27, highest = 29;
@@ -21,14 +21,16 @@ class IntegerSum {
     __builtin_memcpy(&value, &pattern, sizeof value);
     return value;
   }
-  // The place at which a term begins: |term| < unit(place + 1).
+  // The place at which a term begins: |term| < unit(place + 1) / 2, so that from a higher place it is rounded to nothing there,
+  // which is what is left of it where a larger term comes later.
   static KOKKOS_FORCEINLINE_FUNCTION int place_of(double term) {
     long long pattern;
     __builtin_memcpy(&pattern, &term, sizeof pattern);
     const int exponent = static_cast<int>(pattern >> 52 & 0x7ff);  // biased by 1023 = 32 x 32 - 1
-    return larger((exponent + 1) / bits - 32, lowest);
+    return larger((exponent + 2) / bits - 32, lowest);
   }
-  static KOKKOS_FORCEINLINE_FUNCTION bool is_finite(double term) { return -unit(highest + 1) < term && term < unit(highest + 1); }
+  static KOKKOS_FORCEINLINE_FUNCTION bool is_finite(double term) { return -largest() < term && term < largest(); }
+  static KOKKOS_FORCEINLINE_FUNCTION double largest() { return 0.5 * unit(highest + 1); }
 
   KOKKOS_INLINE_FUNCTION int top() const { return top_; }
   // Multiples of the part's unit, in each lane.
@@ -78,7 +80,7 @@ struct LaneSum {
   Lane high, middle, low;
 
   static KOKKOS_FORCEINLINE_FUNCTION LaneSum from(int top) {
-    return {IntegerSum::unit(top + 1), Lane(0.0), Lane(0.0), Lane(0.0)};
+    return {0.5 * IntegerSum::unit(top + 1), Lane(0.0), Lane(0.0), Lane(0.0)};
   }
   KOKKOS_FORCEINLINE_FUNCTION void end(IntegerSum& total) const {
     total.add(0, high);
@@ -97,7 +99,7 @@ KOKKOS_FORCEINLINE_FUNCTION Lane taken_from(Lane& term, double shift) {
 // |term| < sum.limit
 KOKKOS_FORCEINLINE_FUNCTION LaneSum added(const LaneSum sum, Lane term) {
   constexpr double per_part = 0x1p-32;
-  const double shift = 0x1.8p52 * per_part * sum.limit;
+  const double shift = 0x1.8p53 * per_part * sum.limit;  // 3/2 2^52 of the highest part's unit
   const Lane high = taken_from(term, shift), middle = taken_from(term, per_part * shift);
   return {sum.limit, sum.high + high, sum.middle + middle, sum.low + taken_from(term, per_part * per_part * shift)};
 }

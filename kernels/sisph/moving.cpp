@@ -53,7 +53,6 @@ double MovingWater<D>::reach(double dt, double jump) const {
   return 0.5 * dt * jump + 0.1 * options_.spacing;
 }
 
-// Coefficients for all pairs and vectors for all images.
 // Rows get longer and shorter, so the number of slices changes.
 template <int D>
 void MovingWater<D>::visit_all(int slices) {
@@ -64,6 +63,7 @@ void MovingWater<D>::visit_all(int slices) {
   g_.slices.list = all;
 }
 
+// Coefficients for all pairs and vectors for all images.
 template <int D>
 void MovingWater<D>::make_room() {
   if (g_.area.extent(0) < g_.pairs.j.extent(0)) {

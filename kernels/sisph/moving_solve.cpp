@@ -4,6 +4,7 @@
 
 #include "cellgrid/launch.hpp"
 #include "kernels/linear/pair_product.hpp"
+#include "kernels/linear/point_mesh.hpp"
 #include "kernels/sisph/moving_loops.hpp"
 
 namespace freshet::sisph {
@@ -40,7 +41,9 @@ linear::CgReport MovingWater<D>::solve_linear(const linear::CgOptions& options, 
     return sum_of_slices<1>("sisph::product", g_.slices.count,
                                      linear::PairProduct<SliceList>{g_.pairs, g_.slices, {a_}, diagonal_, g_.free, x, y})[0];
   };
-  if (!mesh_on_) return cg_.solve(product, linear::Jacobi{inverse_}, right_, correction_, options);
+  constexpr double most = 24;  // cells of the mesh for a particle: few that have flown far must not make it huge
+  const bool suits = linear::PointMesh::suits(rows_, g_.pairs.particles, most);
+  if (!mesh_on_ || !suits) return cg_.solve(product, linear::Jacobi{inverse_}, right_, correction_, options);
   lay_mesh(stiffness);
   return cg_.solve(product, linear::JacobiPlus<linear::ParticleMesh<D>>{inverse_, *mesh_}, right_, correction_, options);
 }

@@ -153,7 +153,7 @@ Box sorted_box(const Scene& scene) {
   const bool spreads = scene.method == "sisph" && scene.sisph.formulation == Sisph::Formulation::moving && scene.walls.empty();
   const auto beyond = [&](std::size_t axis) {
     if (scene.fpm && scene.fpm->periodic[axis]) return 0.0;
-    return 32 * scene.water.spacing + (spreads ? 2 * (scene.domain.high[axis] - scene.domain.low[axis]) : 0.0);
+    return 32 * scene.water.spacing + (spreads ? 8 * (scene.domain.high[axis] - scene.domain.low[axis]) : 0.0);
   };
   const Point &low = scene.domain.low, &high = scene.domain.high;
   return {low[0] - beyond(0), high[0] + beyond(0), low[1] - beyond(1), high[1] + beyond(1)};

@@ -71,6 +71,26 @@ TEST_CASE("sums: what a term adds does not depend on who stands beside it, on th
   }
 }
 
+TEST_CASE("sums: terms 2^64 smaller than the largest count alike before it and after it") {
+  const double big = 0x1p96, small = 4e9;  // small lies in the upper half of what the third part below big's holds
+  const std::vector<double> alone{sum({small, big, -big}), sum({big, small, -big}), sum({big, -big, small})};
+  // One a slice: in slices of eight the largest of them decides at once.
+  std::vector<double> apart(3 * 8, 0.0), turned(3 * 8, 0.0);
+  apart[0] = small, apart[8] = big, apart[16] = -big;
+  turned[0] = big, turned[8] = small, turned[16] = -big;
+  CHECK(same_bits(sum(apart), sum(turned)));
+  for (const double s : alone) CHECK(same_bits(s, sum(apart)));
+  // Many of them, each half a unit of what is kept, and one large: first, in the middle, last.
+  std::vector<double> values(100000, 1.5 * 0x1p-65);
+  values[0] = 1;
+  const double expected = sum(values);
+  for (const std::size_t at : {1u, 700u, 50000u, 99999u}) {
+    std::vector<double> other = values;
+    std::swap(other[0], other[at]);
+    CHECK(same_bits(sum(other), expected));
+  }
+}
+
 TEST_CASE("sums: products are terms of their own, whole slices and the last one alike") {
   // In lanes beside each other a and b swapped: contracted into multiply-adds, a b would leave another rest in a slice that is not full.
   for (const int n : {5, 8, 13, 1000, 1003}) {
@@ -97,8 +117,8 @@ TEST_CASE("sums: as near to the true sum as a double is") {
     c += std::abs(s) >= std::abs(v) ? (s - t) + v : (v - t) + s;
     s = t, size = std::max(size, std::abs(v));
   }
-  // Terms are cut below 2^-65 of the largest, each by half of that at most; the result is rounded twice.
-  CHECK(sum(values) == Approx(s + c).epsilon(4 * 0x1p-53).margin(50000 * size * 0x1p-65));
+  // Each term is cut by 2^-64 of the largest at most; the result is rounded twice.
+  CHECK(sum(values) == Approx(s + c).epsilon(4 * 0x1p-53).margin(50000 * size * 0x1p-64));
 }
 
 TEST_CASE("sums: exact where doubles are not") {
