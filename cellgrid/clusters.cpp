@@ -2,7 +2,7 @@
 
 #include <type_traits>
 
-#include "cellgrid/balanced.hpp"
+#include "cellgrid/launch.hpp"
 #include "cellgrid/box.hpp"
 
 namespace freshet {

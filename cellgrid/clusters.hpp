@@ -10,8 +10,6 @@ namespace freshet {
 
 // A row's last cluster, mostly: lane by lane in place these loads and stores were half of the machine code of all passes. Loads are a
 // gather, since a call would keep what was loaded before in memory, also in the pair loop that follows.
-#define FRESHET_PARTIAL __attribute__((noinline)) KOKKOS_FUNCTION
-
 KOKKOS_FORCEINLINE_FUNCTION LaneIndex partial_lanes(int count) {
   return smaller(lanes_of<LaneIndex>([](int lane) { return lane; }), LaneIndex(count - 1));
 }
@@ -20,11 +18,11 @@ KOKKOS_FORCEINLINE_FUNCTION V load_partial(const double* from, int count) {
   return gather(from, partial_lanes(count));
 }
 template <class V>
-FRESHET_PARTIAL V load_partial(const int* from, int count) {
+FRESHET_OUT_OF_LINE KOKKOS_FUNCTION V load_partial(const int* from, int count) {
   return lanes_of<V>([&](int lane) { return from[lane < count ? lane : count - 1]; });
 }
 template <class V>
-FRESHET_PARTIAL void store_partial(double* to, int count, V value) {
+FRESHET_OUT_OF_LINE KOKKOS_FUNCTION void store_partial(double* to, int count, V value) {
   for_each_lane(value, [&](int lane, double one) {
     if (lane < count) to[lane] = one;
   });
@@ -77,8 +75,7 @@ KOKKOS_FORCEINLINE_FUNCTION Lanes block(int b, int n) { return {b * lanes, small
 
 // Zero in lanes beyond the last particle.
 KOKKOS_FORCEINLINE_FUNCTION Lane counted(const Lanes& me, Lane a) {
-  const Lane lane = lanes_of<Lane>([](int l) { return static_cast<double>(l); });
-  return select(lane < Lane(static_cast<double>(me.count)), a, Lane(0.0));
+  return select(first_lanes(me.count), a, Lane(0.0));
 }
 
 // One value in every lane: the neighbour's side of a pair.

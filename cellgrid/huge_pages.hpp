@@ -13,7 +13,7 @@ namespace freshet {
 
 template <class View>
 void prefer_huge_pages(const View& view) {
-#if defined(__linux__) && !defined(KOKKOS_ENABLE_CUDA) && !defined(KOKKOS_ENABLE_HIP)
+#if defined(__linux__) && !defined(FRESHET_DEVICE)
   constexpr std::uintptr_t page = 1u << 21;
   const auto begin = (reinterpret_cast<std::uintptr_t>(view.data()) + page - 1) / page * page;
   const auto end = reinterpret_cast<std::uintptr_t>(view.data() + view.span()) / page * page;

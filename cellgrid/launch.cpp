@@ -1,6 +1,6 @@
 #include "cellgrid/launch.hpp"
 
-#if !defined(KOKKOS_ENABLE_CUDA) && !defined(KOKKOS_ENABLE_HIP)
+#ifndef FRESHET_DEVICE
 namespace freshet {
 namespace {
 

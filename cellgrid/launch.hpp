@@ -6,10 +6,17 @@
 
 namespace freshet {
 
-// Parts go to whichever thread is free: see balanced.hpp.
+// A range whose parts go to whichever thread is free: pair passes take longer where water is dense or walls are near, and threads
+// on a shared machine are not equally fast. Every index writes its own results, so that who does what changes none of them.
 using DynamicRange = Kokkos::RangePolicy<Exec, Kokkos::Schedule<Kokkos::Dynamic>>;
 
-#if defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP)
+// clusters: at least so many that fetching a part costs nothing beside it (some 10 us).
+inline DynamicRange balanced(int clusters) {
+  constexpr int part = 24;
+  return DynamicRange(0, clusters, Kokkos::ChunkSize(part));
+}
+
+#ifdef FRESHET_DEVICE
 template <class Policy, class Body>
 void launch(const char* label, const Policy& range, const Body& body) {
   Kokkos::parallel_for(label, range, body);

@@ -108,11 +108,6 @@ void set_places(const Field<int>& start, int stride) {
       });
 }
 
-template <class View>
-void reserve(View& view, const char* label, int n) {
-  if (view.extent_int(0) < n) view = View(Kokkos::ViewAllocateWithoutInitializing(label), static_cast<size_t>(n) + n / 2);
-}
-
 // Cells of a width that cover a length; a period's own rounding makes no further one.
 int cells(double length, double width) { return std::max(static_cast<int>(std::ceil(length / width - 1e-9)), 1); }
 
@@ -193,8 +188,8 @@ int RowOrder::keep_blocks(const FieldSet& particles) {
   reserve(key_, "cellgrid.key", n);
   const Field<int> key = key_, mark = mark_, block = rows_.block;
   const Keys keys{rows_, x_, y_, id_, dimension_ == 2};
-  launch("cellgrid::mark", Range(0, (n + lanes - 1) / lanes), KOKKOS_LAMBDA(int b) {
-        const Lanes me{b * lanes, smaller(lanes, n - b * lanes)};
+  launch("cellgrid::mark", Range(0, freshet::blocks(n)), KOKKOS_LAMBDA(int b) {
+        const Lanes me = freshet::block(b, n);
         for_each_lane(keys(me), [&](int lane, int k) {
           if (lane >= me.count) return;
           key(me.first + lane) = k;

@@ -1,5 +1,7 @@
-// Pairs whose coefficients are stored (SELL-W): the W particles of a cluster are the lanes of a slice, and entry e of a slice holds
-// one neighbour of each lane. Slices are cut row by row as clusters are, so a particle's slice hangs on its own row alone. Made once for particles at rest; matrix products and pair passes then stream through the entries.
+// Pairs whose coefficients are stored (SELL-W): the W particles of a cluster are the lanes of a slice, and entry e
+// of a slice holds one neighbour of each lane. Slices are cut row by row as clusters are, so a particle's slice
+// hangs on its own row alone. Made once for particles at rest; matrix products and pair passes then stream through
+// the entries.
 // Short rows are padded with the particle itself: x_j - x_i = 0, so whatever vanishes with the distance needs no mask.
 #pragma once
 #include "cellgrid/clusters.hpp"

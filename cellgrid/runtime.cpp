@@ -6,7 +6,7 @@
 #include <thread>
 #include <utility>
 
-#include "cellgrid/pack.hpp"
+#include "cellgrid/registers.hpp"
 
 namespace freshet {
 namespace {

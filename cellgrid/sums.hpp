@@ -2,6 +2,7 @@
 // every term is cut at fixed places into integers of 32 bits, and integers are added. What is cut off lies below 2^-64 of the
 // largest term (a double's own rounding is 2^-53 of each).
 #pragma once
+#include <cmath>
 #include <utility>
 
 #include "cellgrid/clusters.hpp"
@@ -29,7 +30,7 @@ class IntegerSum {
     const int exponent = static_cast<int>(pattern >> 52 & 0x7ff);  // biased by 1023 = 32 x 32 - 1
     return larger((exponent + 2) / bits - 32, lowest);
   }
-  static KOKKOS_FORCEINLINE_FUNCTION bool is_finite(double term) { return -largest() < term && term < largest(); }
+  static KOKKOS_FORCEINLINE_FUNCTION bool is_finite(double term) { return size_of(term) < largest(); }
   static KOKKOS_FORCEINLINE_FUNCTION double largest() { return 0.5 * unit(highest + 1); }
 
   KOKKOS_INLINE_FUNCTION int top() const { return top_; }
@@ -37,7 +38,7 @@ class IntegerSum {
   KOKKOS_INLINE_FUNCTION void add(int part, Lane multiples) {
     for_each_lane(multiples * unit(part - top_), [&](int, double units) { part_[part] += static_cast<long long>(units); });
   }
-  KOKKOS_INLINE_FUNCTION void add_not_finite(double term) { odd_ += term < 0 ? -1 / zero() : term > 0 ? 1 / zero() : term; }
+  KOKKOS_INLINE_FUNCTION void add_not_finite(double term) { odd_ += term < 0 ? -HUGE_VAL : term > 0 ? HUGE_VAL : term; }
 
   // Parts that lie too low for the new place are forgotten, of every term alike.
   KOKKOS_INLINE_FUNCTION void raise(int place) {
@@ -66,8 +67,6 @@ class IntegerSum {
   }
 
  private:
-  static KOKKOS_FORCEINLINE_FUNCTION double zero() { return 0; }
-
   long long part_[parts] = {0, 0, 0};
   double odd_ = 0;  // the sum of terms that are not finite
   int top_ = lowest;
@@ -105,7 +104,7 @@ KOKKOS_FORCEINLINE_FUNCTION LaneSum added(const LaneSum sum, Lane term) {
 }
 
 // Makes room for a term larger than any before; what is not finite goes elsewhere.
-__attribute__((noinline)) KOKKOS_INLINE_FUNCTION LaneSum added_anew(const LaneSum sum, IntegerSum& total, Lane term) {
+FRESHET_OUT_OF_LINE KOKKOS_INLINE_FUNCTION LaneSum added_anew(const LaneSum sum, IntegerSum& total, Lane term) {
   sum.end(total);
   Lane finite(0.0);
   for_each_lane(term, [&](int lane, double one) {
@@ -119,8 +118,7 @@ __attribute__((noinline)) KOKKOS_INLINE_FUNCTION LaneSum added_anew(const LaneSu
 // The term as a number of its own: a product that is rounded to units at once would leave another rest than a double's.
 KOKKOS_FORCEINLINE_FUNCTION LaneSum added(const LaneSum sum, IntegerSum& total, Lane term) {
   term = rounded(term);
-  const Lane limit(sum.limit);
-  if (any(!((-limit < term) & (term < limit)))) {
+  if (any(!(size_of(term) < Lane(sum.limit)))) {
     const LaneSum larger = added_anew(sum, total, term);
     return {larger.limit, larger.high, larger.middle, larger.low};
   }
@@ -277,5 +275,8 @@ Addends<K> sum_of_particles(const char* label, int n, const Values& values) {
   else
     return sum_of_slices<K>(label, blocks(n), AddendsApart<K, Values>{values, n});
 }
+
+// The sum of values 0 ... n - 1.
+double sum_of_values(const char* label, int n, const Field<double>& values);
 
 }  // namespace freshet

@@ -5,7 +5,7 @@ namespace freshet {
 template <class T>
 Field<T>::Field(const std::string& label, size_t values) : View(label, values) {}
 
-#if !defined(KOKKOS_ENABLE_CUDA) && !defined(KOKKOS_ENABLE_HIP)
+#ifndef FRESHET_DEVICE
 template <class T>
 Field<T>::Field(const Field& other) noexcept : View(other) {}
 template <class T>

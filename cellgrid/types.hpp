@@ -6,6 +6,15 @@
 #include <string>
 #include <type_traits>
 
+#if defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP)
+#define FRESHET_DEVICE  // passes run on a GPU
+#endif
+
+// Of a lambda: no call, and no memory for what it returns.
+#define FRESHET_INLINE_LAMBDA __attribute__((always_inline))
+// Of a function: a call wherever it is used, so that its bits do not depend on what it would be merged with, and its code is there once.
+#define FRESHET_OUT_OF_LINE __attribute__((noinline))
+
 namespace freshet {
 
 #ifdef FRESHET_SERIAL
@@ -31,7 +40,7 @@ class Field : public Kokkos::View<T*, Memory> {
   static_assert(std::is_same_v<T, double> || std::is_same_v<T, int>, "types.cpp has functions for these alone: use a Kokkos::View");
 
   Field() = default;
-#if !defined(KOKKOS_ENABLE_CUDA) && !defined(KOKKOS_ENABLE_HIP)  // out of line: passes copy dozens, each a call and three branches
+#ifndef FRESHET_DEVICE  // out of line: passes copy dozens, each a call and three branches
   Field(const Field& other) noexcept;
   Field(Field&& other) noexcept : View(static_cast<View&&>(other)) {}
   Field& operator=(const Field& other) noexcept;
@@ -48,6 +57,13 @@ class Field : public Kokkos::View<T*, Memory> {
 };
 template <class T>
 using Input = Kokkos::View<const T*, Memory>;
+
+// Room for at least n values; where it grows, by half, what it held is lost.
+template <class View>
+void reserve(View& view, const char* label, int n) {
+  const std::size_t wanted = static_cast<std::size_t>(n);
+  if (view.extent(0) < wanted) view = View(Kokkos::ViewAllocateWithoutInitializing(label), wanted + wanted / 2);
+}
 
 // Told of each view that on_host gives out: its label and bytes. Where host and device share memory nothing
 // is copied, and Kokkos' tools do not see it; tests hold what a step reads.

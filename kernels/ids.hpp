@@ -10,8 +10,8 @@ namespace freshet {
 struct OutOfIds : std::length_error {
   OutOfIds()
       : std::length_error("the run has let in or split " + std::to_string(std::numeric_limits<int>::max()) +
-                          " particles, as many as there are numbers for; go on from its last output as a new run, or with a larger "
-                          "water.spacing") {}
+                          " particles, as many as there are numbers for\n  help: go on from its last output as a new run, or "
+                          "use a larger water.spacing") {}
 };
 
 // The first of `count` new ids, next_id .. next_id + count - 1. Throws OutOfIds.

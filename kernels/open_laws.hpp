@@ -1,6 +1,6 @@
 // The laws of open_states.hpp, for host and device.
 #pragma once
-#include "cellgrid/out_of_line.hpp"
+#include "cellgrid/types.hpp"
 #include "kernels/open_states.hpp"
 
 namespace freshet {

@@ -110,8 +110,6 @@ Blocks blocks_near(const CellGrid& grid, const Rows& rows) {
   return {i0, j0, (i1 - i0) / columns_of_block<D> + 1, (j1 - j0) / rows_of_block<D> + 1};
 }
 
-using Dynamic = Kokkos::RangePolicy<Exec, Kokkos::Schedule<Kokkos::Dynamic>>;  // dry cells cost next to nothing
-
 // The mean over what covers the cell, finite where nothing does.
 KOKKOS_FORCEINLINE_FUNCTION Lane mean(Lane value, Lane cover) { return value / larger(cover, Lane(edge_cover)); }
 
@@ -126,7 +124,7 @@ CoverFields cover_cells(const CellGrid& grid, const SortedWater<D>& water) {
   const CoverFields out(grid.size());
   const Blocks blocks = blocks_near<D>(grid, water.rows);
   const SortedWater<D> w = water;
-  launch("raster::cover", Dynamic(0, blocks.count()), KOKKOS_LAMBDA(int k) {
+  launch("raster::cover", DynamicRange(0, blocks.count()), KOKKOS_LAMBDA(int k) {  // dry cells cost next to nothing
         const Block<D> cells = block_at<D>(grid, blocks, k);
         const Cover<D> sums = gather_water(w, grid, cells);
         cells.store(out.cover, sums.cover);
@@ -190,7 +188,7 @@ Front track_maxima(const CellGrid& grid, const SortedWater<D>& water, double t, 
   const Maxima m = maxima;
   int count = 0, i_low = grid.nx, i_high = -1, j_low = grid.ny, j_high = -1;
   Kokkos::parallel_reduce(
-      "raster::maxima", Dynamic(0, blocks.count()),
+      "raster::maxima", DynamicRange(0, blocks.count()),
       KOKKOS_LAMBDA(int k, int& wet, int& west, int& east, int& south, int& north) {
         const Block<D> cells = block_at<D>(grid, blocks, k);
         const Cover<D> sums = gather_water(w, grid, cells);

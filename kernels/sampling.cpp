@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "cellgrid/launch.hpp"
-#include "cellgrid/out_of_line.hpp"
+#include "cellgrid/types.hpp"
 
 namespace freshet {
 namespace {

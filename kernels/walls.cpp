@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "cellgrid/balanced.hpp"
 #include "cellgrid/box.hpp"
+#include "cellgrid/launch.hpp"
 #include "cellgrid/on_device.hpp"
 
 namespace freshet {
@@ -13,7 +13,7 @@ template <class T, class F>
 void fill(const Field<T>& field, const std::vector<WallPoint>& points, const F& value) {
   auto host = Kokkos::create_mirror_view(field);
   for (size_t k = 0; k < points.size(); ++k) host(k) = value(points[k]);
-  Kokkos::deep_copy(field, host);
+  assign(field, host);
 }
 
 void number(const Field<int>& id, int n) {
@@ -37,7 +37,8 @@ Box box_of(const std::vector<WallLine>& lines, double beyond) {
 
 template <int D>
 Walls<D>::Walls(const std::vector<WallLine>& lines, const WallOptions& options, const std::array<double, 2>& inside, double support)
-    : order_(D, options.spacing, box_of(lines, 8 * options.spacing)), near_(32, "walls::list", false), kind_(options.kind), stretch_(stretch_of(options.kind)),
+    : order_(D, options.spacing, box_of(lines, 8 * options.spacing)), near_(32, "walls::list", false), kind_(options.kind),
+      stretch_(stretch_of(options.kind)),
       // A virtual particle lies twice as far away as its wall point; a neighbour's image may stand right behind the wall.
       reach_(support / stretch_.factor[0]), depth_(2 * options.spacing) {
   const WallGeometry g = lay_walls(D, lines, options, inside);
@@ -57,7 +58,7 @@ Walls<D>::Walls(const std::vector<WallLine>& lines, const WallOptions& options, 
   // Water alone decides what is near. With tiles of that size (most clusters' reach) water off the walls sees at once that none is.
   constexpr double next_to_nothing = 1e-6, tile = 4;  // x spacing
   const Field<double> h = points_.real("h", "m", Carry::no);
-  Kokkos::deep_copy(h, next_to_nothing * options.spacing);
+  assign(h, next_to_nothing * options.spacing);
   order_.measure_reach(points_, h, tile / next_to_nothing);
   segments_ = on_device("walls.segments", g.segments);
   bins_ = g.bins;

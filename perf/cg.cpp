@@ -28,7 +28,9 @@ struct AllSlices {
 // omega x_i + sum_j a_ij (x_i - x_j), a_ij = k A_ij / d_ij: the free surface's matrix (kernels/sisph/coefficients.hpp).
 class System {
  public:
-  explicit System(int wanted) : side_(static_cast<int>(std::lround(std::sqrt(wanted)))), fields_(side_ * side_), order_(2, 1.0, {-1.0, side_ + 1.0, -1.0, side_ + 1.0}) {
+  explicit System(int wanted)
+      : side_(static_cast<int>(std::lround(std::sqrt(wanted)))), fields_(side_ * side_),
+        order_(2, 1.0, {-1.0, side_ + 1.0, -1.0, side_ + 1.0}) {
     place();
     order_.sort(fields_);
     x_ = {fields_.real("x"), fields_.real("y")};

@@ -41,7 +41,9 @@ class Water {
   static constexpr double dx = 1, eta = 1.2, depth = 1, margin = 0.05;
   AnyKernel<D> kernel = CubicSpline<D>{};
 
-  Water(Arrangement arrangement, int wanted) : side_(std::max(4, static_cast<int>(std::lround(std::sqrt(wanted))))), order_(D, dx, {-10 * dx, (side_ + 10) * dx, -10 * dx, (side_ + 10) * dx}) {
+  Water(Arrangement arrangement, int wanted)
+      : side_(std::max(4, static_cast<int>(std::lround(std::sqrt(wanted))))),
+        order_(D, dx, {-10 * dx, (side_ + 10) * dx, -10 * dx, (side_ + 10) * dx}) {
     make_fields();
     place(arrangement);
     order_.sort(fields_);

@@ -104,7 +104,7 @@ void Poisson<D>::assemble(const StencilView<D>& stencils, const Rows& rows, cons
   places_ = places;
   reserve();
   const double reach = look_at_points();
-  on_mesh_ = on_mesh_ && linear::PointMesh::suits(rows, around.points);
+  on_mesh_ = on_mesh_ && linear::MeshCorrection<2>::suits(rows, around.points, 6);
   matrix_.lay_out(around.clusters, around.near, around.points);
   if (!on_mesh_) matrix_.lay_out_rough();
   launch("fpm::rows", Range(0, around.clusters.size()),
@@ -128,7 +128,7 @@ void Poisson<D>::multiply(const Field<double>& x, const Field<double>& y) {
   matrix_.multiply(x, y);
   if (!singular_) return;
   const int n = matrix_.rows;
-  const double mean = sum_of_particles<1>("fpm::mean", n, KOKKOS_LAMBDA(const Lanes& me) { return LaneAddends<1>{{me.load(x)}}; })[0] / n;
+  const double mean = sum_of_values("fpm::mean", n, x) / n;
   launch("fpm::add_mean", Range(0, n), KOKKOS_LAMBDA(int i) { y(i) += mean; });
 }
 
@@ -155,7 +155,7 @@ PoissonReport Poisson<D>::solve(const PoissonData& data, const Field<double>& ps
   report.solve = krylov_.solve(n, [this](const auto& x, const auto& y) { multiply(x, y); },
                                [this](const auto& r, const auto& z) { precondition(r, z); }, b_, psi, options);
   if (!singular_) return report;
-  const double mean = sum_of_particles<1>("fpm::mean", n, KOKKOS_LAMBDA(const Lanes& me) { return LaneAddends<1>{{me.load(psi)}}; })[0] / n;
+  const double mean = sum_of_values("fpm::mean", n, psi) / n;
   launch("fpm::take_mean", Range(0, n), KOKKOS_LAMBDA(int i) { psi(i) -= mean; });
   return report;
 }

@@ -12,11 +12,6 @@ constexpr double beyond = 0.5;  // x range: by how much values in a hole may exc
 constexpr double touching = 0.25;  // x spacing: inner points this near to a wall stand on it; beside a wall without points water goes through
 constexpr double lonely = 1.5;  // x spacing: a surface point on a wall with no fluid point nearer than this is given up
 
-template <class View>
-void reserve(View& view, const char* label, int n) {
-  if (view.extent_int(0) < n) view = View(Kokkos::ViewAllocateWithoutInitializing(label), static_cast<std::size_t>(n + n / 2 + 16));
-}
-
 // The closeness rules on the fields of a set.
 struct Pairing {
   Cloud cloud;

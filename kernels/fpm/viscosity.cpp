@@ -83,7 +83,7 @@ void ImplicitViscosity::assemble(const StencilView<2>& stencils, double k) {
   const int n = around.points;
   matrix_.lay_out(around.clusters, around.near, n);
   if (per_b_.extent_int(0) < n + lanes) per_b_ = Field<double>("fpm.viscous_rows", static_cast<size_t>(n + n / 2 + lanes));
-  for (Field<double>* f : {&b_, &x_}) linear::reserve(*f, "fpm.viscous", 2 * n + lanes);
+  for (Field<double>* f : {&b_, &x_}) reserve(*f, "fpm.viscous", 2 * n + lanes);
   launch("fpm::viscous_rows", Range(0, around.clusters.size()), AssembleViscousRows{stencils, places_, matrix_, per_b_, k});
 }
 

@@ -97,11 +97,6 @@ struct Searcher {
   }
 };
 
-template <class View>
-void reserve(View& view, const char* label, int n) {
-  if (view.extent_int(0) < n) view = View(Kokkos::ViewAllocateWithoutInitializing(label), static_cast<std::size_t>(n + n / 2));
-}
-
 }  // namespace
 
 VoronoiReport Voronoi::find(const Cloud& cloud, int n, const Field<int>& surface, bool flags_only) {

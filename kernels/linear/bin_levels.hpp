@@ -46,8 +46,8 @@ struct BinLevel {
   }
 
   // As a matrix of rows in blocks of lanes; see ClusterMatrix.
-  KOKKOS_FORCEINLINE_FUNCTION int blocks() const { return (size + lanes - 1) / lanes; }
-  KOKKOS_FORCEINLINE_FUNCTION Lanes block(int c) const { return {c * lanes, smaller(lanes, size - c * lanes)}; }
+  KOKKOS_FORCEINLINE_FUNCTION int blocks() const { return freshet::blocks(size); }
+  KOKKOS_FORCEINLINE_FUNCTION Lanes block(int c) const { return freshet::block(c, size); }
   KOKKOS_FORCEINLINE_FUNCTION Lane times(int c, const Vector& v) const {
     Lane sum{0.0};
     if (even(c)) {

@@ -1,7 +1,6 @@
 #include "kernels/linear/mesh_correction.hpp"
 
 #include <cmath>
-#include <string>
 
 #include "cellgrid/clusters.hpp"
 #include "cellgrid/launch.hpp"
@@ -46,8 +45,8 @@ struct FromNodes {
   Field<double> fx, fy, weight;
   int stride, points;
 
-  KOKKOS_FUNCTION void operator()(int block) const {
-    const Lanes me{block * lanes, smaller(lanes, points - block * lanes)};
+  KOKKOS_FUNCTION void operator()(int b) const {
+    const Lanes me = block(b, points);
     const LaneIndex n = me.load(node);
     const Lane x = me.load(fx), y = me.load(fy);
     const double* const south = c.data();
@@ -58,15 +57,16 @@ struct FromNodes {
   }
 };
 
-void reserve(Field<int>& f, const std::string& label, int n) {
-  if (f.extent_int(0) < n) f = Field<int>(label, static_cast<size_t>(n + n / 2));
-}
-
 }  // namespace
 
 template <int D>
 int MeshCorrection<D>::bins_per_cell(const Rows& rows) {
   return static_cast<int>(std::fmax(1, std::round(rows.row_height / rows.bin_width)));
+}
+
+template <int D>
+bool MeshCorrection<D>::suits(const Rows& rows, int points, double most) {
+  return static_cast<double>(rows.rows) * rows.bins / bins_per_cell(rows) < most * points + 1000;
 }
 
 template <int D>
@@ -80,18 +80,18 @@ void MeshCorrection<D>::lay(const Rows& rows, const VecField<double, D>& x, int 
   multigrid_.resize({m.columns + !wrap_x, D == 2 ? m.rows + !wrap_y : 1, wrap_x, wrap_y});
   points_ = points;
   const BoxGrid grid = multigrid_.finest().grid;
-  linear::reserve(fx_, "mesh_correction.fx", points + lanes);
-  linear::reserve(fy_, "mesh_correction.fy", points + lanes);
+  reserve(fx_, "mesh_correction.fx", points + lanes);
+  reserve(fy_, "mesh_correction.fy", points + lanes);
   reserve(node_, "mesh_correction.node", points + lanes);
   reserve(first_, "mesh_correction.first", m.size() + 1);
-  linear::reserve(south_, "mesh_correction.south", grid.size());
-  linear::reserve(north_, "mesh_correction.north", grid.size());
+  reserve(south_, "mesh_correction.south", grid.size());
+  reserve(north_, "mesh_correction.north", grid.size());
   launch("mesh_correction::places", Range(0, m.rows), FindPlaces<D>{{m, grid, first_}, rows, bins, x, node_, fx_, fy_});
 }
 
 template <int D>
 void MeshCorrection<D>::add(const Vector& r, const Field<double>& weight, const Vector& z) const {
-  launch("mesh_correction::from_nodes", Range(0, (points_ + lanes - 1) / lanes),
+  launch("mesh_correction::from_nodes", Range(0, blocks(points_)),
          FromNodes{c_, r, z, node_, fx_, fy_, weight, multigrid_.finest().grid.stride(), points_});
 }
 

@@ -25,6 +25,8 @@ template <int D>
 class MeshCorrection {
  public:
   static int bins_per_cell(const Rows& rows);
+  // Whether a mesh suits the points that rows say: at most `most` cells for one of them, and a thousand.
+  static bool suits(const Rows& rows, int points, double most);
 
   // Lays the mesh over points, sorted as rows say. Allocates where the mesh or the points grow.
   void lay(const Rows& rows, const VecField<double, D>& x, int points, const Period& period);

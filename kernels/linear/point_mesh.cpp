@@ -20,12 +20,7 @@ void PointMesh::build(const Rows& rows, const VecField<double, 2>& x, int points
   weight_ = weights.weight;
   mesh_.lay(rows, x, points, period);
   mesh_.set(Weighted{weight_, weights.held, 0.0}, weights.area);
-  total_weight_ = weights.singular ? sum_of_weights() : 0;
-}
-
-double PointMesh::sum_of_weights() {
-  const Field<double> weight = weight_;
-  return sum_of_particles<1>("point_mesh::weight", points_, KOKKOS_LAMBDA(const Lanes& me) { return LaneAddends<1>{{me.load(weight)}}; })[0];
+  total_weight_ = weights.singular ? sum_of_values("point_mesh::weight", points, weight_) : 0;
 }
 
 double PointMesh::mean(const Vector& r) { return dot(points_, weight_, r) / total_weight_; }

@@ -16,16 +16,10 @@ struct MeshWeights {
 
 class PointMesh {
  public:
-  // Whether a mesh suits the points: at most `most` cells for one of them.
-  static bool suits(const Rows& rows, int points, double most = 6) {
-    return static_cast<double>(rows.rows) * rows.bins / MeshCorrection<2>::bins_per_cell(rows) < most * points + 1000;
-  }
   // Lays the mesh over sorted points and finds its system.
   void build(const Rows& rows, const VecField<double, 2>& x, int points, const Period& period, const MeshWeights& weights);
   // z := as above.
   void operator()(const Vector& r, const Vector& z);
-
-  double sum_of_weights();  // device lambdas may not live in private members
 
  private:
   double mean(const Vector& r);

@@ -45,9 +45,4 @@ inline void fill(int n, double value, const Vector& y) {
   launch("linear::fill", Range(0, n), KOKKOS_LAMBDA(int i) { y(i) = value; });
 }
 
-// The scratch of a solver: grown only where the system grows, by half.
-inline void reserve(Vector& v, const char* label, int n) {
-  if (v.extent_int(0) < n) v = Vector(Kokkos::ViewAllocateWithoutInitializing(label), static_cast<size_t>(n + n / 2));
-}
-
 }  // namespace freshet::linear

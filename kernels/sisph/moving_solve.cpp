@@ -4,7 +4,6 @@
 
 #include "cellgrid/launch.hpp"
 #include "kernels/linear/pair_product.hpp"
-#include "kernels/linear/point_mesh.hpp"
 #include "kernels/sisph/moving_loops.hpp"
 
 namespace freshet::sisph {
@@ -39,10 +38,10 @@ template <int D>
 linear::CgReport MovingWater<D>::solve_linear(const linear::CgOptions& options, double stiffness) {
   const auto product = [&](const Field<double>& x, const Field<double>& y) {
     return sum_of_slices<1>("sisph::product", g_.slices.count,
-                                     linear::PairProduct<SliceList>{g_.pairs, g_.slices, {a_}, diagonal_, g_.free, x, y})[0];
+                            linear::PairProduct<SliceList>{g_.pairs, g_.slices, {a_}, diagonal_, g_.free, x, y})[0];
   };
   constexpr double most = 24;  // cells of the mesh for a particle: few that have flown far must not make it huge
-  const bool suits = linear::PointMesh::suits(rows_, g_.pairs.particles, most);
+  const bool suits = linear::MeshCorrection<D>::suits(rows_, g_.pairs.particles, most);
   if (!mesh_on_ || !suits) return cg_.solve(product, linear::Jacobi{inverse_}, right_, correction_, options);
   lay_mesh(stiffness);
   return cg_.solve(product, linear::JacobiPlus<linear::ParticleMesh<D>>{inverse_, *mesh_}, right_, correction_, options);

@@ -106,7 +106,7 @@ OpenRim<D>::OpenRim(std::vector<LawInTime> laws, const std::vector<RimPlace<D>>&
 template <int D>
 void OpenRim<D>::find(const TracedWater<D>& traced, double t, double dt) {
   launch("sisph::trace_back", Range(0, count_),
-                       TraceBack<D>{{traced}, particle_, n_, foot_v_, foot_depth_, foot_out_, dt});
+         TraceBack<D>{{traced}, particle_, n_, foot_v_, foot_depth_, foot_out_, dt});
   laws_.find({foot_depth_, foot_out_, depth_}, t, dt);
   turn_velocities();
 }

@@ -87,7 +87,7 @@ void RimLaws::share(int opening, bool by_width, const Field<double>& foot_depth)
   const auto shares = shares_;
   const int places = place_.extent_int(0);
   launch("sisph::rim_shares", Range(0, 1),
-                       KOKKOS_LAMBDA(int) { shares(0) = DischargeShares(places, portion, by_width); });
+         KOKKOS_LAMBDA(int) { shares(0) = DischargeShares(places, portion, by_width); });
 }
 
 void RimLaws::find(const RimFeet& feet, double t, double dt) const {

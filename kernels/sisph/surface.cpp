@@ -104,7 +104,7 @@ typename FreeSurface<D>::Norms FreeSurface<D>::find_coefficients(const SliceList
   const auto sums = kernel_ ? visit(std::false_type{}, {}) : visit(std::true_type{}, std::get<linear::StoredPairs>(pairs_).a);
   if (!drying || sums[2] == 0) return {std::sqrt(sums[0]), std::sqrt(sums[1])};
   const auto limited = sum_of_slices<2>("sisph::limit_outflow", active.count,
-                                    LimitOutflow<D>{g_, active, water.depth, share_, flux_, right_, residual_, dt});
+                                        LimitOutflow<D>{g_, active, water.depth, share_, flux_, right_, residual_, dt});
   return {std::sqrt(limited[0]), std::sqrt(limited[1])};
 }
 

@@ -14,7 +14,7 @@ KOKKOS_FORCEINLINE_FUNCTION Lane run_up_depth(Lane depth, Lane bed, Lane dry_bed
 }
 
 // a, f, b, the row sums, the residual of the iterate and the share of its outflow f that a particle has water for; returns the
-// slice's parts of |r|^2 and |b|^2, and how many of its particles would give more than they have. a is written where it is stored.
+// slice's terms of |r|^2 and |b|^2, and how many of its particles would give more than they have. a is written where it is stored.
 template <int D, bool drying, bool stored>
 struct Coefficients {
   Geometry<D> g;
@@ -76,7 +76,7 @@ struct Coefficients {
 };
 
 // Scales f by the donor's share, so that b >= 0: else a film that runs off has to be held by a surface far below the bed, which
-// costs CG and Newton many iterations. Returns the slice's parts of |r|^2 and |b|^2.
+// costs CG and Newton many iterations. Returns the slice's terms of |r|^2 and |b|^2.
 template <int D>
 struct LimitOutflow {
   Geometry<D> g;
@@ -101,7 +101,7 @@ struct LimitOutflow {
   }
 };
 
-// The depth from the fluxes, b - T eta = omega H, and the residual against V(eta); returns the slice's part of |r|^2.
+// The depth from the fluxes, b - T eta = omega H, and the residual against V(eta); returns the slice's terms of |r|^2.
 template <int D, class Matrix>
 struct Residual {
   Geometry<D> g;

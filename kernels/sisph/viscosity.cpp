@@ -94,7 +94,7 @@ int Viscosity<D>::find(const Water<D>& water, const Field<double>& drag, const V
   const auto product = [&](const Field<double>& x, const Field<double>& y) {
     fill_images(g_.images, parts(x, stride_, like), options_.slip);
     return sum_of_slices<1>("sisph::viscous_product", g_.slices.count,
-                        Product<D>{g_, pull_, mass_, parts(x, stride_, like), parts(y, stride_, like)})[0];
+                            Product<D>{g_, pull_, mass_, parts(x, stride_, like), parts(y, stride_, like)})[0];
   };
   linear::CgOptions cg;
   cg.tolerance = options_.tolerance;

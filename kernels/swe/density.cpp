@@ -1,6 +1,6 @@
 #include "kernels/swe/density.hpp"
 
-#include "cellgrid/balanced.hpp"
+#include "cellgrid/launch.hpp"
 #include "kernels/swe/density_sums.hpp"
 #include "kernels/swe/least_squares.hpp"
 

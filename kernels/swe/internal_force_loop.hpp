@@ -1,6 +1,6 @@
 // The pair loop of internal_force.hpp.
 #pragma once
-#include "cellgrid/balanced.hpp"
+#include "cellgrid/launch.hpp"
 #include "kernels/swe/force_request.hpp"
 #include "kernels/swe/single.hpp"
 

@@ -79,9 +79,7 @@ void OpenBuffer<D>::survey(const std::optional<Bed<D>>& bed) {
   const Frame at_line = frame();
   const std::optional<Bed<D>> ground = bed;
   launch("open::survey", Range(0, count_),
-                       KOKKOS_LAMBDA(int r) {
-        row(r).bed = bed_at<D>(ground, at_line.point(at_line.before + r, 0));
-      });
+         KOKKOS_LAMBDA(int r) { row(r).bed = bed_at<D>(ground, at_line.point(at_line.before + r, 0)); });
 }
 
 template <int D>

@@ -74,7 +74,7 @@ OpenSection::OpenSection(const std::vector<double>& width, const Scales& scales)
 void OpenSection::take_still() const {
   const OpenRows rows = row_;
   launch("open::take_still", Range(0, rows.extent_int(0)),
-                       KOKKOS_LAMBDA(int r) { rows(r).still = rows(r).wet ? rows(r).level : rows(r).bed; });
+         KOKKOS_LAMBDA(int r) { rows(r).still = rows(r).wet ? rows(r).level : rows(r).bed; });
 }
 
 // Rows that no fluid reaches take the state of the nearest row of the boundary that has one; without any they

@@ -11,12 +11,6 @@
 
 namespace freshet::swe {
 
-// Scratch of at least n values; what it held is lost.
-template <class View>
-void reserve(View& view, const char* label, int n) {
-  if (view.extent_int(0) < n) view = View(Kokkos::ViewAllocateWithoutInitializing(label), static_cast<size_t>(n + n / 2));
-}
-
 struct SplitOptions {
   SplitPattern pattern;
   PlacedValue area;      // m^D: a particle that covers this or more is split

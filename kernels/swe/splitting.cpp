@@ -1,11 +1,10 @@
 // Refinement: splitting.
-#include "cellgrid/assign.hpp"
-#include "cellgrid/launch.hpp"
-#include "kernels/swe/refinement.hpp"
-
 #include <Kokkos_Sort.hpp>
 
+#include "cellgrid/assign.hpp"
+#include "cellgrid/launch.hpp"
 #include "kernels/ids.hpp"
+#include "kernels/swe/refinement.hpp"
 
 namespace freshet::swe {
 namespace {

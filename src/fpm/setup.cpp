@@ -45,7 +45,8 @@ FlowRule flow_rule(const Fpm& fpm) {
 }  // namespace
 
 Solver::Solver(const Scene& scene)
-    : scene_(scene), order_(2, scene.water.spacing, sorted_box(scene)), period_(period_of(scene)), tank_(lines_of(scene.walls), 4 * scene.water.spacing),
+    : scene_(scene), order_(2, scene.water.spacing, sorted_box(scene)), period_(period_of(scene)),
+      tank_(lines_of(scene.walls), 4 * scene.water.spacing),
       management_(point_rule(scene), tank_, period_, {{{"u", "v"}, {"u_old", "v_old"}}, {"p"}}),
       projection_(flow_rule(*scene.fpm), tank_.view()) {
   if (scene.fpm->grading) grading_.emplace(scene);

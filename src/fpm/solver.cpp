@@ -99,9 +99,8 @@ Mechanics Solver::mechanics() const {
 }
 
 Totals Solver::totals() const {
-  const Field<double> area = cell_areas();
   Totals totals;
-  totals.mass = sum_of_particles<1>("fpm::area", points_.size(), KOKKOS_LAMBDA(const Lanes& me) { return LaneAddends<1>{{me.load(area)}}; })[0];
+  totals.mass = sum_of_values("fpm::area", points_.size(), cell_areas());
   return totals;
 }
 

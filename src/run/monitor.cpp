@@ -63,9 +63,9 @@ int count_bad(const FieldSet& fields, const Allowed& in) {
   const int n = fields.size();
   int bad = 0;
   Kokkos::parallel_reduce(
-      "run::monitor", Range(0, (n + lanes - 1) / lanes),
+      "run::monitor", Range(0, blocks(n)),
       KOKKOS_LAMBDA(int b, int& count_of_bad) {
-        const Lanes me{b * lanes, smaller(lanes, n - b * lanes)};
+        const Lanes me = block(b, n);
         const Lane px = me.load(x), py = me.load(y), vx = me.load(u), vy = me.load(v), d = me.load(depth);
         const auto inside = (Lane(in.x_low) < px) & (px < Lane(in.x_high)) & (Lane(in.y_low) < py) & (py < Lane(in.y_high));
         const auto sound = (Lane(least) < d) & (d < Lane(infinity)) & (vx * vx + second * (vy * vy) < Lane(limit2));
@@ -85,10 +85,11 @@ struct FieldGroup {
 int count_not_finite(const FieldGroup& group, int n) {
   int bad = 0;
   Kokkos::parallel_reduce(
-      "run::monitor_all", Range(0, (n + lanes - 1) / lanes),
+      "run::monitor_all", Range(0, blocks(n)),
       KOKKOS_LAMBDA(int b, int& count_of_bad) {
+        const Lanes me = block(b, n);
         for (int f = 0; f < group.count; ++f)
-          for (int i = b * lanes; i < smaller((b + 1) * lanes, n); ++i) {
+          for (int i = me.first; i < me.first + me.count; ++i) {
             const double value = group.data[f][i];
             count_of_bad += !(-infinity < value && value < infinity);
           }

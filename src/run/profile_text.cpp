@@ -73,7 +73,8 @@ std::string table(const RunProfile& p) {
 
 std::string json(const RunProfile& p) {
   JsonWriter out;
-  out.begin().value("scene", p.scene).value("method", p.method).value("backend", p.backend).value("registers", p.registers).value("threads", p.threads);
+  out.begin().value("scene", p.scene).value("method", p.method);
+  out.value("backend", p.backend).value("registers", p.registers).value("threads", p.threads);
   out.value("first_step", p.first_step).value("steps", p.steps).value("particles", per(p.particle_steps, static_cast<double>(p.steps)));
   out.value("wall", p.wall).value("simulated", p.simulated).value("particle_steps_per_s", per(p.particle_steps, p.wall));
   out.value("seconds_per_simulated_second", per(p.wall, p.simulated));

@@ -105,7 +105,7 @@ void RunUpRecorder::save(Values& values) const {
 void RunUpRecorder::restore(const Values& values) {
   const std::vector<double>& all = values.at("run_up");
   std::vector<WetLevels> highest;
-  for (std::size_t k = 0; k < all.size(); k += 2) highest.push_back({all.at(k), all.at(k + 1)});
+  for (std::size_t k = 0; k < shores_.shore.extent(0); ++k) highest.push_back({all.at(2 * k), all.at(2 * k + 1)});
   if (!highest.empty()) shores_.highest = on_device("run_up.highest", highest);
 }
 

@@ -67,14 +67,10 @@ void set_field(const Field<double>& field, const std::vector<Start>& start, cons
 }
 
 template <int D>
-VecField<double, D> scratch(const std::string& label, int n);
-template <>
-VecField<double, 1> scratch<1>(const std::string& label, int n) {
-  return {Field<double>(label, static_cast<std::size_t>(n) + lanes)};
-}
-template <>
-VecField<double, 2> scratch<2>(const std::string& label, int n) {
-  return {Field<double>(label, static_cast<std::size_t>(n) + lanes), Field<double>(label, static_cast<std::size_t>(n) + lanes)};
+VecField<double, D> scratch(const std::string& label, int n) {
+  const auto field = [&] { return Field<double>(label, static_cast<std::size_t>(n) + lanes); };
+  if constexpr (D == 1) return {field()};
+  else return {field(), field()};
 }
 
 VecField<double, 1> vector_field(const FieldSet& f, const char* x, const char*, Vec<double, 1>) { return {f.real(x)}; }

@@ -12,7 +12,8 @@ namespace freshet::sisph {
 template <int D>
 Solver<D>::Solver(const Scene& scene)
     : scene_(scene), kernel_(make_kernel<D>(scene.sisph.kernel, scene.sisph.smoothing, false)),
-      support_(std::visit([](const auto& k) { return k.support; }, kernel_)), order_(D, scene.water.spacing, sorted_box(scene)) {
+      support_(std::visit([](const auto& k) { return k.support; }, kernel_)),
+      order_(D, scene.water.spacing, sorted_box(scene)) {
   place_particles();
   build_geometry();
   if (scene_.sisph.formulation == Sisph::Formulation::moving) {

@@ -42,7 +42,8 @@ double margin_of(const Scene& scene) {
 template <int D>
 Solver<D>::Solver(const Scene& scene)
     : scene_(scene), kernel_(make_kernel<D>(scene.sph.kernel, scene.sph.eta, scene.sph.lattice_correction)),
-      support_(std::visit([](const auto& k) { return k.support; }, kernel_)), margin_(margin_of(scene)), order_(D, scene.water.spacing, sorted_box(scene)),
+      support_(std::visit([](const auto& k) { return k.support; }, kernel_)), margin_(margin_of(scene)),
+      order_(D, scene.water.spacing, sorted_box(scene)),
       stabilise_(make_stabilisation(scene.sph, scene.gravity)), gradient_(needs_velocity_gradient(stabilise_)),
       depth_gradient_(needs_depth_gradient(stabilise_)), imposed_alpha_(lattice_sums<D>(scene.sph.eta, kernel_).alpha) {
   build_bed();

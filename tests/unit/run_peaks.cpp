@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "cellgrid/pack.hpp"
+#include "cellgrid/registers.hpp"
 
 using namespace freshet;
 
