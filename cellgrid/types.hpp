@@ -17,6 +17,8 @@
 
 namespace freshet {
 
+inline constexpr double pi = 3.14159265358979323846;
+
 #ifdef FRESHET_SERIAL
 using Exec = Kokkos::Serial;
 #else

@@ -25,21 +25,10 @@ struct TimeSeries {
   }
 };
 
-// law: of the boundary's kind, with what does not change. first, second: the series of what it imposes, as
-// set_values takes them.
+// law: with what does not change; first, second: the series of what follows time, as its set() takes them.
 struct LawInTime {
   OpenLaw law;
   TimeSeries first, second;
 };
-
-// What a law imposes [SI].
-KOKKOS_INLINE_FUNCTION void set_values(ImposedLevel& law, double level, double) { law.level = level; }
-KOKKOS_INLINE_FUNCTION void set_values(IncomingWave& law, double level, double) { law.level = level; }
-KOKKOS_INLINE_FUNCTION void set_values(ImposedVelocity& law, double inward, double) { law.inward = inward; }
-KOKKOS_INLINE_FUNCTION void set_values(ImposedDischarge& law, double total, double) { law.total = total; }
-KOKKOS_INLINE_FUNCTION void set_values(ImposedState& law, double stage, double inward) {
-  law.stage = stage, law.inward = inward;
-}
-KOKKOS_INLINE_FUNCTION void set_values(Transmissive&, double, double) {}
 
 }  // namespace freshet

@@ -121,18 +121,19 @@ ExteriorState ImposedState::operator()(const InnerState& inner, const OpenStrip&
   return between((outer > 0 ? inward : 0) + 2 * outer, leaving(inner, strip), strip);
 }
 
-KOKKOS_INLINE_FUNCTION
-ExteriorState Transmissive::operator()(const InnerState& inner, const OpenStrip& strip) const {
-  using namespace open_states;
-  if (inner.depth <= 0 || leaves_supercritically(inner, strip)) return copied(inner);
-  return between(inner.arriving, leaving(inner, strip), strip);
-}
-
 // By a law of one kind, the same bits wherever it is used.
 template <class Law>
 KOKKOS_FUNCTION FRESHET_OUT_OF_LINE ExteriorState imposed(const Law& law, const InnerState& inner,
                                                           const OpenStrip& strip) {
   return law(inner, strip);
+}
+
+KOKKOS_INLINE_FUNCTION
+ExteriorState Transmissive::operator()(const InnerState& inner, const OpenStrip& strip) const {
+  using namespace open_states;
+  if (levelled) return imposed(ImposedState{level}, inner, strip);
+  if (inner.depth <= 0 || leaves_supercritically(inner, strip)) return copied(inner);
+  return between(inner.arriving, leaving(inner, strip), strip);
 }
 
 }  // namespace freshet

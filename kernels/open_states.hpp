@@ -3,6 +3,10 @@
 // Throughout u is the velocity INTO the domain [m/s], c = sqrt(g d) the celerity, and R = -u + 2 c of the inner state the
 // invariant that leaves the domain. Each kind follows the local Froude number and the sign of u by itself:
 // what leaves supercritically is copied, and no more than critical flow passes where only one value is imposed.
+//
+// To add a law, write its struct, name it in OpenLaw and write its operator() in open_laws.hpp. name and title are what a scene
+// says and what the program shows, keys(k) tells what a scene gives for it (kernels/choice.hpp), values that follow time first
+// in the order in which set() takes them [SI].
 #pragma once
 #include <variant>
 
@@ -33,42 +37,83 @@ struct ExteriorState {
 
 // Level imposed: d_b = level - bed, u_b = 2 c_b - R (4.2).
 struct ImposedLevel {
-  double level;  // m
+  static constexpr const char *name = "elevation", *title = "imposed elevation";
+  double level = 0;  // m
+  template <class Keys>
+  void keys(Keys& k) {
+    k.level();
+  }
+  KOKKOS_INLINE_FUNCTION void set(double level_now, double) { level = level_now; }
   KOKKOS_INLINE_FUNCTION ExteriorState operator()(const InnerState& inner, const OpenStrip& strip) const;
 };
 
 // Level of the incoming wave alone: its invariant u + 2 c = 4 c(level) - 2 c(still) enters, R leaves.
 struct IncomingWave {
-  double level;  // m
+  static constexpr const char *name = "wave", *title = "incoming wave";
+  double level = 0;  // m
+  template <class Keys>
+  void keys(Keys& k) {
+    k.level();
+  }
+  KOKKOS_INLINE_FUNCTION void set(double level_now, double) { level = level_now; }
   KOKKOS_INLINE_FUNCTION ExteriorState operator()(const InnerState& inner, const OpenStrip& strip) const;
 };
 
 // Inward velocity imposed: c_b = (R + u_b) / 2 (4.3); 0 is a wall.
 struct ImposedVelocity {
-  double inward;  // m/s
+  static constexpr const char *name = "velocity", *title = "imposed velocity";
+  double inward = 0;  // m/s
+  template <class Keys>
+  void keys(Keys& k) {
+    k.in_time("velocity", "m/s");
+  }
+  KOKKOS_INLINE_FUNCTION void set(double inward_now, double) { inward = inward_now; }
   KOKKOS_INLINE_FUNCTION ExteriorState operator()(const InnerState& inner, const OpenStrip& strip) const;
 };
 
 // Discharge imposed, of which strip.share passes here: 2 c^3 - R c^2 = g q with q = u d; 0 is a wall.
 struct ImposedDischarge {
-  double total;   // m3/s (1-D: m2/s), inwards
-  bool by_width;  // shares in proportion to the width, else to the conveyance
+  static constexpr const char *name = "discharge", *title = "imposed discharge by ";
+  double total = 0;       // m3/s (1-D: m2/s), inwards
+  bool by_width = false;  // shares in proportion to the width, else to the conveyance
+  template <class Keys>
+  void keys(Keys& k) {
+    k.in_time("discharge", "m3/s");
+    k.word("distribute", {"conveyance", "width"}, by_width);
+  }
+  KOKKOS_INLINE_FUNCTION void set(double total_now, double) { total = total_now; }
   KOKKOS_INLINE_FUNCTION ExteriorState operator()(const InnerState& inner, const OpenStrip& strip) const;
 };
 
 // The state of the water outside: imposed whole where it comes in supercritically; else its invariant u + 2 c enters and R
 // leaves. At rest it is a level that waves leave over.
 struct ImposedState {
-  double stage;         // m, level, or depth
-  bool above_bed;       // stage is a depth
-  double inward = 0;    // m/s
+  static constexpr const char *name = "state", *title = "imposed state";
+  double stage = 0;        // m, level, or depth
+  bool above_bed = false;  // stage is a depth
+  double inward = 0;       // m/s
+  template <class Keys>
+  void keys(Keys& k) {
+    k.one_in_time({"level", "depth"}, "m", above_bed);
+    k.in_time("velocity", "m/s");
+  }
+  KOKKOS_INLINE_FUNCTION void set(double stage_now, double inward_now) { stage = stage_now, inward = inward_now; }
   KOKKOS_INLINE_FUNCTION ExteriorState operator()(const InnerState& inner, const OpenStrip& strip) const;
 };
 
 // Zero gradient: what enters, u + 2 c, is that of the inner state itself, of which the slow mean keeps the scheme's own errors
 // at the line from feeding back; R leaves. Nothing flows in but for as long as a wave's trough takes to leave: a mean inflow,
-// which nothing outside would bound, meets water that flows against it and ends.
+// which nothing outside would bound, meets water that flows against it and ends. Where a level is given, still water of that
+// level lies outside.
 struct Transmissive {
+  static constexpr const char *name = "transmissive", *title = "transmissive";
+  bool levelled = false;
+  double level = 0;  // m
+  template <class Keys>
+  void keys(Keys& k) {
+    k.if_given("level", "m", levelled);
+  }
+  KOKKOS_INLINE_FUNCTION void set(double level_now, double) { level = level_now; }
   KOKKOS_INLINE_FUNCTION ExteriorState operator()(const InnerState& inner, const OpenStrip& strip) const;
 };
 

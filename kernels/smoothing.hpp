@@ -1,10 +1,10 @@
 // Smoothing kernels W(r, h) = w(r / h) / h^D, as w and dw/dq of q = r/h without branches: both vanish outside the support
 // by construction. Norms are part of w.
 #pragma once
+#include <cmath>
 #include <variant>
 
 #include "cellgrid/lanes.hpp"
-#include "kernels/kernel_name.hpp"
 
 namespace freshet {
 
@@ -19,7 +19,7 @@ struct KernelValue {
 template <int D>
 struct CubicSpline {
   static constexpr double support = 2.0;
-  static constexpr double norm = (D == 1 ? 1.0 : 15.0 / (7.0 * 3.14159265358979323846)) * 2.0 / 3.0;
+  static constexpr double norm = (D == 1 ? 1.0 : 15.0 / (7.0 * pi)) * 2.0 / 3.0;
 
   template <class V>
   static KOKKOS_FORCEINLINE_FUNCTION KernelValue<V> at(V q) {
@@ -74,10 +74,66 @@ struct GeneralKernel {
   }
 };
 
-// The named kernel, its norm times kappa. Quartic and quintic spline: supports 2.5h and 3h; Wendland C2: 2h; Gaussian: cut
-// at 3h (where it is 1.2e-4 of its peak).
+// The kernels that a scene may name (kernels/choice.hpp), their norms times kappa; one struct each.
+namespace kernel {
+
+struct Cubic {
+  static constexpr const char* name = "cubic";
+  template <int D>
+  static GeneralKernel<D> shape(double kappa) {
+    const double n = kappa * CubicSpline<D>::norm;
+    return {2, 0, {{2, 0.25 * n, 0, 0}, {1, -n, 0, 0}}};
+  }
+};
+
+// Spline of fourth order, support 2.5h.
+struct Quartic {
+  static constexpr const char* name = "quartic";
+  template <int D>
+  static GeneralKernel<D> shape(double kappa) {
+    const double n = kappa * (D == 1 ? 1.0 / 24 : 96 / (1199 * pi));
+    return {2.5, 0, {{2.5, 0, n, 0}, {1.5, 0, -5 * n, 0}, {0.5, 0, 10 * n, 0}}};
+  }
+};
+
+// Spline of fifth order, support 3h.
+struct Quintic {
+  static constexpr const char* name = "quintic";
+  template <int D>
+  static GeneralKernel<D> shape(double kappa) {
+    const double n = kappa * (D == 1 ? 1.0 / 120 : 7 / (478 * pi));
+    return {3, 0, {{3, 0, 0, n}, {2, 0, 0, -6 * n}, {1, 0, 0, 15 * n}}};
+  }
+};
+
+// Cut at 3h, where it is 1.2e-4 of its peak.
+struct Gaussian {
+  static constexpr const char* name = "gaussian";
+  template <int D>
+  static GeneralKernel<D> shape(double kappa) {
+    return {3, kappa * (D == 1 ? 1 / std::sqrt(pi) : 1 / pi), {}};
+  }
+};
+
+// Wendland's C2 function, support 2h: (1 - q/2)^3 (1 + 3q/2) in 1-D, (1 - q/2)^4 (1 + 2q) in 2-D; with p = 2 - q both are
+// two powers.
+struct Wendland {
+  static constexpr const char* name = "wendland";
+  template <int D>
+  static GeneralKernel<D> shape(double kappa) {
+    if (D == 1) return {2, 0, {{2, kappa * 5.0 / 8 * 0.5, -kappa * 5.0 / 8 * 1.5 / 8, 0}}};
+    return {2, 0, {{2, 0, kappa * 7 / (4 * pi) * 5.0 / 16, -kappa * 7 / (4 * pi) * 2.0 / 16}}};
+  }
+};
+
+}  // namespace kernel
+
+using KernelChoice = std::variant<kernel::Cubic, kernel::Quartic, kernel::Quintic, kernel::Gaussian, kernel::Wendland>;
+
 template <int D>
-GeneralKernel<D> general_kernel(KernelName name, double kappa = 1);
+GeneralKernel<D> general_kernel(const KernelChoice& choice, double kappa = 1) {
+  return std::visit([&](const auto& k) { return k.template shape<D>(kappa); }, choice);
+}
 
 // What the pair loops are compiled for.
 template <int D>
@@ -85,7 +141,7 @@ using AnyKernel = std::variant<CubicSpline<D>, GeneralKernel<D>>;
 
 // With the lattice correction the norm is such that the sum over a lattice of spacing h/eta is one (SWE-FORMULAS 1.7).
 template <int D>
-AnyKernel<D> make_kernel(KernelName name, double eta, bool lattice_correction);
+AnyKernel<D> make_kernel(const KernelChoice& choice, double eta, bool lattice_correction);
 
 // h^D and 1/h^D of a smoothing length.
 template <int D, class V>

@@ -146,7 +146,7 @@ WallGeometry lay_ends(const std::vector<WallLine>& lines, const WallOptions& o, 
   for (const WallLine& line : lines) {
     const double x = line.front()[0], side = inside > x ? 1.0 : -1.0;
     const int segment = static_cast<int>(g.segments.size());
-    if (o.kind == WallKind::rows)
+    if (o.kind.rows)
       for (double depth = 0.5 * o.spacing; depth < o.reach; depth += o.spacing)
         g.points.push_back({{x - side * depth, 0}, {1, 0, 0}, o.spacing, segment});
     else
@@ -169,8 +169,8 @@ WallGeometry lay_lines(const std::vector<WallLine>& lines, const WallOptions& o)
   }
   g.bins = bins_of(g.segments, cell * o.spacing);
   for (const Chain& chain : chains) {
-    if (o.kind != WallKind::rows) lay_face(g.segments, chain, o.spacing, o.kind != WallKind::vbp, g.points);
-    for (int k = chain.first; o.kind == WallKind::rows && k < chain.first + chain.count; ++k)
+    if (!o.kind.rows) lay_face(g.segments, chain, o.spacing, o.kind.corners, g.points);
+    for (int k = chain.first; o.kind.rows && k < chain.first + chain.count; ++k)
       lay_rows(g, chain, k, o);
   }
   return g;

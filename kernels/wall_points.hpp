@@ -4,10 +4,9 @@
 #include <vector>
 
 #include "kernels/segment_bins.hpp"
+#include "kernels/wall_kind.hpp"
 
 namespace freshet {
-
-enum class WallKind { none, vbp, mvbp, rows, mirror };
 
 using WallLine = std::vector<std::array<double, 2>>;  // m, the water on its left; closed if it ends where it begins
 

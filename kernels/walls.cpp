@@ -20,11 +20,6 @@ void number(const Field<int>& id, int n) {
   launch("walls::number", Range(0, n), KOKKOS_LAMBDA(int k) { id(k) = k; });
 }
 
-Stretch stretch_of(WallKind kind) {
-  if (kind == WallKind::vbp) return {1, {2, 2}};
-  return kind == WallKind::mvbp ? Stretch{2, {2, 4}} : Stretch{1, {1, 1}};
-}
-
 Box box_of(const std::vector<WallLine>& lines, double beyond) {
   Box box{1e300, -1e300, 1e300, -1e300};
   for (const WallLine& line : lines)
@@ -38,9 +33,8 @@ Box box_of(const std::vector<WallLine>& lines, double beyond) {
 template <int D>
 Walls<D>::Walls(const std::vector<WallLine>& lines, const WallOptions& options, const std::array<double, 2>& inside, double support)
     : order_(D, options.spacing, box_of(lines, 8 * options.spacing)), near_(32, "walls::list", false), kind_(options.kind),
-      stretch_(stretch_of(options.kind)),
       // A virtual particle lies twice as far away as its wall point; a neighbour's image may stand right behind the wall.
-      reach_(support / stretch_.factor[0]), depth_(2 * options.spacing) {
+      reach_(support / kind_.stretch.factor[0]), depth_(2 * options.spacing) {
   const WallGeometry g = lay_walls(D, lines, options, inside);
   points_ = FieldSet(static_cast<int>(g.points.size()));
   const auto add = [&](const char* name, const auto& value) { fill(points_.real(name, "m", Carry::sort), g.points, value); };
@@ -67,10 +61,10 @@ Walls<D>::Walls(const std::vector<WallLine>& lines, const WallOptions& options, 
 template <int D>
 WallView<D> Walls<D>::view() const {
   WallView<D> view;
-  view.on = kind_ != WallKind::none;
-  view.mirror = kind_ == WallKind::mirror;
-  view.rows = kind_ == WallKind::rows;
-  view.stretch = stretch_;
+  view.on = kind_.felt;
+  view.mirror = kind_.mirror;
+  view.rows = kind_.rows;
+  view.stretch = kind_.stretch;
   view.near = near_.view();
   view.segment = points_.integer("segment");
   view.segments = segments_;
@@ -122,7 +116,7 @@ struct FeltLength {
 template <int D>
 void Walls<D>::find(const ClusterSet& clusters, const ListRequest<D>& water, const NeighbourView& near) {
   Field<double> h = water.h;
-  if (kind_ == WallKind::mirror) {
+  if (kind_.mirror) {
     if (felt_h_.extent(0) < h.extent(0)) felt_h_ = Field<double>(Kokkos::ViewAllocateWithoutInitializing("walls.felt_h"), h.extent(0));
     const double reach = reach_ * (1 + water.margin);
     launch("walls::felt_h", balanced(clusters.size()),

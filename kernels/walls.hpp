@@ -105,12 +105,6 @@ struct Image {
   }
 };
 
-// Where virtual particles lie on the way from i through a wall point, in units of their distance.
-struct Stretch {
-  int count = 0;
-  double factor[2] = {1, 1};
-};
-
 template <int D>
 struct WallView {
   bool on = false;
@@ -242,7 +236,7 @@ class Walls {
 
   WallView<D> view() const;
   int points() const { return points_.size(); }
-  WallKind kind() const { return kind_; }
+  const WallKind& kind() const { return kind_; }
 
  private:
   FieldSet points_;
@@ -250,7 +244,6 @@ class Walls {
   NeighbourList near_;
   Field<double> felt_h_;  // m, mirror: the largest h of a particle and of those that reach it
   WallKind kind_;
-  Stretch stretch_;
   double reach_;  // x h, how far wall points count
   Kokkos::View<WallSegment*, Memory> segments_;
   SegmentBins bins_;

@@ -108,7 +108,7 @@ class System {
   FieldSet fields_;
   RowOrder order_;
   VecField<double, 2> x_;
-  AnyKernel<2> kernel_ = make_kernel<2>(KernelName::cubic, smoothing, false);
+  AnyKernel<2> kernel_ = make_kernel<2>(kernel::Cubic{}, smoothing, false);
   sisph::Geometry<2> g_;
   sisph::Places<2> places_;
   double stiffness_ = 0;

@@ -199,16 +199,16 @@ std::vector<Variant> features(int cells) {
     all.push_back(solver(name, scene));
   };
   const double w = cells;
-  add("no stabilisation", [](Scene& s) { s.sph.stabilisation = Stabilisation::none; });
-  add("Lax-Friedrichs, plain", [](Scene& s) { s.sph.stabilisation = Stabilisation::lax_friedrichs; });
-  add("two-shock, MUSCL", [](Scene& s) { s.sph.stabilisation = Stabilisation::two_shock_muscl; });
+  add("no stabilisation", [](Scene& s) { s.sph.stabilisation = swe::NoStabilisation{}; });
+  add("Lax-Friedrichs, plain", [](Scene& s) { s.sph.stabilisation = swe::LaxFriedrichs{}; });
+  add("two-shock, MUSCL", [](Scene& s) { s.sph.stabilisation = swe::TwoShockMuscl{}; });
   add("fixed h", [](Scene& s) { s.sph.h_floor = s.sph.h_cap = 1; });
   add("bed", [](Scene& s) { s.bed.elevation = [](double x, double y) { return 0.05 * std::sin(0.1 * x + 0.1 * y); }; });
   add("friction", [](Scene& s) { s.manning = 0.02; });
   add("walls, mirror", [w](Scene& s) { s.walls = {Wall{{{0, 0}, {w, 0}, {w, w}, {0, w}, {0, 0}}}}; });
   add("walls, rows", [w](Scene& s) {
     s.walls = {Wall{{{0, 0}, {w, 0}, {w, w}, {0, w}, {0, 0}}}};
-    s.sph.walls = Walling::rows;
+    s.sph.walls = WallKind::image_rows;
   });
   add("splitting, none due", [](Scene& s) {
     s.split = Split{};

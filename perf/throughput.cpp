@@ -62,8 +62,8 @@ class Pool {
     if (extra == "bed") water_->add_bed();
     if (extra == "friction") water_->add_friction();
     if (extra == "matrix") water_->add_matrix();
-    if (extra == "mirror") water_->add_walls(WallKind::mirror);
-    if (extra == "rows") water_->add_walls(WallKind::rows);
+    if (extra == "mirror") water_->add_walls(WallKind::images);
+    if (extra == "rows") water_->add_walls(WallKind::image_rows);
     if (extra == "mvbp") water_->add_walls(WallKind::mvbp);
     return water_;
   }

@@ -113,7 +113,7 @@ ProjectionReport Projection::advance(const Neighbourhood<2>& around, const Rows&
   correct(flow, time);
   report.limited = limit_spray(around, flow, rule_.force, time.tau);
   settle(flow);
-  if (rule_.scheme == Scheme::filtered) smooth_edges(flow);
+  if (rule_.scheme.fitted) smooth_edges(flow);
   return report;
 }
 
@@ -131,13 +131,13 @@ void Projection::find_rows(const Neighbourhood<2>& around, const Flow& flow) {
 }
 
 void Projection::guess_pressure(const Flow& flow) {
-  const Scheme scheme = rule_.scheme;
-  if (scheme == Scheme::filtered) stencils_.fit(flow.p, flow.q);
+  const PressureScheme scheme = rule_.scheme;
+  if (scheme.fitted) stencils_.fit(flow.p, flow.q);
   launch("fpm::guess_pressure", Range(0, flow.points), KOKKOS_LAMBDA(int i) {
-        if (scheme == Scheme::incremental) flow.q(i) = flow.p(i);
-        if (scheme == Scheme::plain || scheme == Scheme::projection || flow.row(i) == row_value) flow.q(i) = 0;
+        if (scheme.incremental) flow.q(i) = flow.p(i);
+        if (!(scheme.fitted || scheme.incremental) || flow.row(i) == row_value) flow.q(i) = 0;
         flow.value(i) = -flow.q(i);
-        if (scheme != Scheme::filtered) flow.phi(i) = 0;
+        if (!scheme.fitted) flow.phi(i) = 0;
       });
 }
 
@@ -156,7 +156,7 @@ linear::BiCgStabReport Projection::diffuse(const Flow& flow, const Backward& tim
 
 // The printed schemes'.
 void Projection::hold_walls(const Flow& flow) {
-  if (rule_.scheme != Scheme::incremental && rule_.scheme != Scheme::projection) return;
+  if (!rule_.scheme.as_printed) return;
   launch("fpm::hold_walls", Range(0, flow.points), KOKKOS_LAMBDA(int i) {
         if (is_wall(flow.kind(i))) put(flow.v_star, i, Vec<double, 2>{});
       });

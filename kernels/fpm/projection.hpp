@@ -8,21 +8,18 @@
 // still water is not stable (e-fold in 0.15 s at nu = 1 m2/s).
 #pragma once
 #include "kernels/fpm/elliptic.hpp"
+#include "kernels/fpm/pressure_scheme.hpp"
 #include "kernels/fpm/stencils.hpp"
 #include "kernels/fpm/tank.hpp"
 #include "kernels/fpm/viscosity.hpp"
 
 namespace freshet::fpm {
 
-// filtered: as above. plain: q = 0. Unstable, kept to show it: as printed, v* = 0 and n . grad phi = 0 on walls, with
-// incremental: q = p unfiltered; projection: q = 0.
-enum class Scheme { filtered, incremental, plain, projection };
-
 struct FlowRule {
   double density = 1000;      // kg/m3
   double viscosity = 0;       // m2/s
   Vec<double, 2> force{};     // m/s2
-  Scheme scheme = Scheme::filtered;
+  PressureScheme scheme;
   bool slip = true;           // walls; false: they hold the tangential velocity too
   double tolerance = 1e-9;    // of the pressure equation: of its right side, or 10 x this of the flow's velocities
   bool implicit = false;      // viscosity

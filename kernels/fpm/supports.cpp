@@ -26,7 +26,7 @@ struct Distances {
 
 }  // namespace
 
-double neighbours_wanted(double support) { return 3.14159265358979323846 * support * support * (1 - std::exp(-steepness)) / steepness; }
+double neighbours_wanted(double support) { return pi * support * support * (1 - std::exp(-steepness)) / steepness; }
 
 SupportReport fit_supports(const Cloud& cloud, int n, const Field<double>& h, const SupportRule& rule) {
   const double wanted = neighbours_wanted(rule.support);

@@ -49,7 +49,7 @@ struct FindStates {
     double share = 0;
     if constexpr (std::is_same_v<Law, ImposedDischarge>) share = shares(0).of(portion(k));
     Law law = kind;
-    set_values(law, first.at(when), second.at(when));
+    law.set(first.at(when), second.at(when));
     const double fall = friction_fall(p.n2, inner, p.outside);
     const ExteriorState state = imposed(law, inner, {gravity, p.bed + fall, p.still, share});
     feet.next_depth(k) = state.depth;

@@ -9,7 +9,6 @@
 namespace freshet::swe {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr int nodes = 24;
 
 // Gauss-Legendre on [-1, 1]; the roots of P_n by Newton.

@@ -1,5 +1,7 @@
-// What a pair's pressures become under each stabilisation (SWE-FORMULAS section 6; thesis 2.5). One struct per choice (flops: what it adds to a pair, cellgrid/work.hpp); to
-// add one, write its struct, name it in the variant, in Stabilisation (src/scene/scene.hpp) and in the reader.
+// What a pair's pressures become under each stabilisation (SWE-FORMULAS section 6; thesis 2.5). To add one, write its struct and
+// name it in the variant: name and title are what a scene says and what the program shows, keys(k) the keys of its own
+// (kernels/choice.hpp), flops what it adds to a pair (cellgrid/work.hpp). Of those with the same name the first that fits
+// the key 'muscl' is taken.
 #pragma once
 #include <variant>
 
@@ -48,7 +50,8 @@ KOKKOS_FORCEINLINE_FUNCTION V reconstructed_jump(const PairState<V>& p) {
 }
 
 struct NoStabilisation {
-  static constexpr bool velocity_gradient = false, depth_gradient = false;
+  static constexpr const char *name = "none", *title = "not stabilised";
+  static constexpr bool velocity_gradient = false, depth_gradient = false, muscl = false;
   static constexpr double flops = 0;
   template <class V>
   KOKKOS_FORCEINLINE_FUNCTION PairPressure<V> operator()(const PairState<V>& p) const {
@@ -58,9 +61,14 @@ struct NoStabilisation {
 
 // Artificial viscosity, corrected (2.53): Pi = (-a c mu + b mu^2)/rho with mu = h v.x/(r^2 + 0.01 h^2), approaching pairs only.
 struct ArtificialViscosity {
-  static constexpr bool velocity_gradient = false, depth_gradient = false;
+  static constexpr const char *name = "artificial-viscosity", *title = "artificial viscosity";
+  static constexpr bool velocity_gradient = false, depth_gradient = false, muscl = false;
   static constexpr double flops = 15;
-  double a, b;
+  double a = 1, b = 0;
+  template <class Keys>
+  void keys(Keys& k) {
+    k.pair("viscosity", {"a", "b"}, a, b);
+  }
   template <class V>
   KOKKOS_FORCEINLINE_FUNCTION PairPressure<V> operator()(const PairState<V>& p) const {
     const V h = 0.5 * p.lengths, closing = smaller(p.jump, V(0.0));
@@ -69,27 +77,28 @@ struct ArtificialViscosity {
   }
 };
 
-// Lax-Friedrichs flux, corrected (2.54): Pi = -c v_ij.x_ij / (rho r) with mean c and rho; always on.
-struct LaxFriedrichs {
-  static constexpr bool velocity_gradient = false, depth_gradient = false;
-  static constexpr double flops = 6;
-  double strength;
+// Lax-Friedrichs flux, corrected (2.54): Pi = -c v_ij.x_ij / (rho r) with mean c and rho; always on. Reconstructed: on the
+// normal velocities of the linear fields midway.
+template <bool Reconstructed>
+struct LaxFriedrichsFlux {
+  static constexpr const char *name = "lax-friedrichs", *title = Reconstructed ? "Lax-Friedrichs with MUSCL" : "Lax-Friedrichs";
+  static constexpr bool velocity_gradient = Reconstructed, depth_gradient = false, muscl = Reconstructed;
+  static constexpr double flops = Reconstructed ? 24 : 6;
+  double strength = 1;
+  template <class Keys>
+  void keys(Keys& k) {
+    k.factor("strength", strength);
+  }
   template <class V>
   KOKKOS_FORCEINLINE_FUNCTION PairPressure<V> operator()(const PairState<V>& p) const {
-    return with_viscosity<V>(p, (-0.5 * strength) * p.celerities * p.jump * p.inv);
+    if constexpr (Reconstructed)
+      return with_viscosity<V>(p, (-0.5 * strength) * p.celerities * reconstructed_jump(p) * p.inv);
+    else
+      return with_viscosity<V>(p, (-0.5 * strength) * p.celerities * p.jump * p.inv);
   }
 };
-
-// The same on the reconstructed normal velocity.
-struct LaxFriedrichsMuscl {
-  static constexpr bool velocity_gradient = true, depth_gradient = false;
-  static constexpr double flops = 24;
-  double strength;
-  template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION PairPressure<V> operator()(const PairState<V>& p) const {
-    return with_viscosity<V>(p, (-0.5 * strength) * p.celerities * reconstructed_jump(p) * p.inv);
-  }
-};
+using LaxFriedrichs = LaxFriedrichsFlux<false>;
+using LaxFriedrichsMuscl = LaxFriedrichsFlux<true>;
 
 // Depth between two states in contact, two-shock approximation on the two-rarefaction estimate (Toro; thesis (2.56)):
 // left = j, right = i; closing = u_l - u_r along x_ij. Zero where the states part so fast that the bed falls dry.
@@ -107,9 +116,10 @@ KOKKOS_FORCEINLINE_FUNCTION V two_shock_depth(V left, V right, V closing, double
 // normal velocities are those of the linear fields midway, limited by minmod.
 template <bool Reconstructed>
 struct TwoShockFlux {
-  static constexpr bool velocity_gradient = Reconstructed, depth_gradient = Reconstructed;
+  static constexpr const char *name = "two-shock", *title = Reconstructed ? "two-shock with MUSCL" : "two-shock";
+  static constexpr bool velocity_gradient = Reconstructed, depth_gradient = Reconstructed, muscl = Reconstructed;
   static constexpr double flops = Reconstructed ? 76 : 33;
-  double gravity;
+  double gravity = 9.81;  // m/s2
   template <class V>
   KOKKOS_FORCEINLINE_FUNCTION PairPressure<V> operator()(const PairState<V>& p) const {
     const V inv_r = p.inv * (p.rho_i + p.rho_j), difference = p.rho_i - p.rho_j;
@@ -128,6 +138,6 @@ using TwoShock = TwoShockFlux<false>;
 using TwoShockMuscl = TwoShockFlux<true>;
 
 using AnyStabilisation =
-    std::variant<NoStabilisation, ArtificialViscosity, LaxFriedrichs, LaxFriedrichsMuscl, TwoShock, TwoShockMuscl>;
+    std::variant<NoStabilisation, ArtificialViscosity, LaxFriedrichsMuscl, LaxFriedrichs, TwoShockMuscl, TwoShock>;
 
 }  // namespace freshet::swe

@@ -13,7 +13,6 @@
 namespace freshet::fpm {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double off_outline = 0.6;  // x dx: lattice points closer than this to a slanting outline are left out
 
 // Places along one side of a box: from end to end, or the middles of cells where the box fills a periodic domain.

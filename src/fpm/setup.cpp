@@ -33,12 +33,8 @@ PointRule point_rule(const Scene& scene) {
   return rule;
 }
 
-Scheme scheme_of(PressureScheme scheme) {
-  return scheme == PressureScheme::filtered ? Scheme::filtered : scheme == PressureScheme::incremental ? Scheme::incremental : scheme == PressureScheme::plain ? Scheme::plain : Scheme::projection;
-}
-
 FlowRule flow_rule(const Fpm& fpm) {
-  return {fpm.density, fpm.viscosity, {fpm.force[0], fpm.force[1]}, scheme_of(fpm.scheme), fpm.slip, fpm.tolerance,
+  return {fpm.density, fpm.viscosity, {fpm.force[0], fpm.force[1]}, fpm.scheme, fpm.slip, fpm.tolerance,
           fpm.implicit_viscosity && fpm.viscosity > 0};
 }
 

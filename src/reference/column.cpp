@@ -2,10 +2,10 @@
 
 #include <cmath>
 
+#include "cellgrid/types.hpp"
+
 namespace freshet {
 namespace {
-
-const double pi = std::acos(-1.0);
 
 // cosh(k (x + L)) / cosh(k L) without overflow, x <= 0.
 double ratio(double k, double x, double length) {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cellgrid/types.hpp"
+
 namespace freshet {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 // A rarefaction to the left, a constant middle state, a shock to the right.
 class Stoker : public Exact {

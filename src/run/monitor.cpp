@@ -27,7 +27,7 @@ Allowed allowed_in(const Scene& scene) {
     margin = std::max({margin, near + buffer_in_dx * spacing, buffer_in_h * longest + spacing});
   }
   // Water without walls that moves as it is goes on for good.
-  if (scene.method == "sisph" && scene.sisph.formulation == Sisph::Formulation::moving && scene.walls.empty()) margin = infinity;
+  if (scene.method == "sisph" && scene.sisph.moving && scene.walls.empty()) margin = infinity;
   const Point low = scene.domain.low, high = scene.domain.high;
   const bool flat = scene.domain.dimension == 1;
   return {low[0] - margin,

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 
+#include "src/scene/choices.hpp"
 #include "src/scene/sections.hpp"
 #include "src/scene/series.hpp"
 #include "src/scene/sides.hpp"
@@ -43,7 +44,7 @@ bool bends_too_much(const std::vector<Point>& line) {
   for (std::size_t k = 1; k + 1 < line.size(); ++k) {
     const double ax = line[k][0] - line[k - 1][0], ay = line[k][1] - line[k - 1][1];
     const double bx = line[k + 1][0] - line[k][0], by = line[k + 1][1] - line[k][1];
-    if (std::abs(std::atan2(ax * by - ay * bx, ax * bx + ay * by)) > most_bend * std::acos(-1.0) / 180) return true;
+    if (std::abs(std::atan2(ax * by - ay * bx, ax * bx + ay * by)) > most_bend * pi / 180) return true;
   }
   return false;
 }
@@ -154,51 +155,52 @@ Series read_quantity(Table& section, const std::string& key, const std::string& 
   return series;
 }
 
-Series read_level(Table& section, const Scene& scene) {
-  const std::string source = section.one_of({"series", "level"}, true);
-  return source.empty() ? Series{} : read_quantity(section, source, "m", scene);
-}
+// Reads what a law asks for.
+class LawReader {
+ public:
+  LawReader(Table& section, const Scene& scene, OpenBoundary& boundary) : section_(section), scene_(scene), boundary_(boundary) {}
 
-void read_imposed(Table& section, const Scene& scene, OpenBoundary& boundary) {
-  using Kind = OpenBoundary::Kind;
-  switch (boundary.kind) {
-    case Kind::elevation:
-    case Kind::wave: boundary.level = read_level(section, scene); break;
-    case Kind::velocity: boundary.velocity = read_quantity(section, "velocity", "m/s", scene); break;
-    case Kind::discharge:
-      boundary.discharge = read_quantity(section, "discharge", "m3/s", scene);
-      boundary.by_width =
-          section.choice<bool>("distribute", {{"conveyance", false}, {"width", true}}).otherwise(false);
-      break;
-    case Kind::state:
-      if (const std::string stage = section.one_of({"level", "depth"}, true); !stage.empty())
-        (stage == "level" ? boundary.level : boundary.depth) = read_quantity(section, stage, "m", scene);
-      boundary.velocity = read_quantity(section, "velocity", "m/s", scene);
-      break;
-    case Kind::transmissive:
-      if (section.has("level")) boundary.level = read_quantity(section, "level", "m", scene);
-      else section.number("level");  // known
+  void in_time(const std::string& key, const std::string& unit) { impose(key, key, unit); }
+  void level() {
+    const std::string source = section_.one_of({"series", "level"}, true);
+    if (!source.empty()) impose(source, "level", "m");
   }
-}
+  void one_in_time(const std::array<std::string, 2>& keys, const std::string& unit, bool& second) {
+    const std::string key = section_.one_of({keys[0], keys[1]}, true);
+    second = key == keys[1];
+    if (!key.empty()) in_time(key, unit);
+  }
+  void if_given(const std::string& key, const std::string& unit, bool& given) {
+    given = section_.has(key);
+    if (given) in_time(key, unit);
+    else section_.accept(key);
+  }
+  void word(const std::string& key, const std::array<std::string, 2>& words, bool& second) {
+    second = section_.choice<bool>(key, {{words[0], false}, {words[1], true}}).otherwise(second);
+  }
+
+ private:
+  void impose(const std::string& key, const std::string& what, const std::string& unit) {
+    boundary_.imposed.push_back({what, unit, read_quantity(section_, key, unit, scene_)});
+  }
+
+  Table& section_;
+  const Scene& scene_;
+  OpenBoundary& boundary_;
+};
 
 }  // namespace
 
 void read_boundary(Table& section, Scene& scene) {
-  using Kind = OpenBoundary::Kind;
   OpenBoundary boundary;
   boundary.name = section.text("name").otherwise("boundary " + std::to_string(scene.boundaries.size() + 1));
   const std::string source = section.one_of({"line", "side"}, true);
   if (source == "line") boundary.line = read_line(section, scene);
   if (source == "side") boundary.line = read_side(section, scene.domain);
   boundary.spacing = section.number("spacing", "m").positive().otherwise(0);
-  Value<Kind> kind = section.choice<Kind>("type", {{"elevation", Kind::elevation},
-                                                   {"wave", Kind::wave},
-                                                   {"velocity", Kind::velocity},
-                                                   {"discharge", Kind::discharge},
-                                                   {"state", Kind::state},
-                                                   {"transmissive", Kind::transmissive}});
-  boundary.kind = kind.required();
-  if (kind.optional()) read_imposed(section, scene, boundary);
+  Value<OpenLaw> law = section.choice("type", named<OpenLaw>());
+  boundary.law = law.required();
+  if (law.optional()) read_keys(section, "type", boundary.law, LawReader(section, scene, boundary));
   else section.accept_rest();
   require_apart(section, boundary, scene);
   scene.boundaries.push_back(std::move(boundary));

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "src/scene/names.hpp"
+#include "src/scene/choices.hpp"
 #include "src/scene/diagnostics.hpp"
 #include "src/scene/read.hpp"
 
@@ -69,25 +69,12 @@ std::string imposed(const std::string& what, const Series& series, const std::st
          what + ' ' + brief(*range.first) + " to " + brief(*range.second) + ' ' + unit;
 }
 
-std::string kind_of(const OpenBoundary& boundary) {
-  switch (boundary.kind) {
-    case OpenBoundary::Kind::wave: return "incoming wave";
-    case OpenBoundary::Kind::velocity: return "imposed velocity";
-    case OpenBoundary::Kind::discharge:
-      return boundary.by_width ? "imposed discharge by width" : "imposed discharge by conveyance";
-    case OpenBoundary::Kind::state: return "imposed state";
-    case OpenBoundary::Kind::transmissive: return "transmissive";
-    default: return "imposed elevation";
-  }
-}
-
 std::string boundary(const OpenBoundary& boundary, const Domain& domain) {
-  std::string out = boundary.name + ": " + kind_of(boundary) + ", ";
+  std::string out = boundary.name + ": " + input::titled(boundary.law) + ", ";
   const std::size_t points = domain.dimension == 1 ? 1 : boundary.line.size();
   for (std::size_t k = 0; k < points; ++k) out += (k > 0 ? " to " : "") + point(boundary.line[k], domain);
-  out += imposed("level", boundary.level, "m") + imposed("depth", boundary.depth, "m") +
-         imposed("velocity", boundary.velocity, "m/s") +
-         imposed("discharge", boundary.discharge, domain.dimension == 1 ? "m2/s" : "m3/s");
+  for (const OpenBoundary::Imposed& i : boundary.imposed)
+    out += imposed(i.what, i.series, domain.dimension == 1 && i.unit == "m3/s" ? "m2/s" : i.unit);
   return boundary.spacing > 0 ? out + ", spacing " + brief(boundary.spacing) + " m" : out;
 }
 
@@ -118,9 +105,8 @@ std::string profile(const Transect& profile, const Domain& domain) {
 std::string sisph_numerics(const Scene& scene) {
   const Sisph& sisph = scene.sisph;
   const std::string step = scene.time_step > 0 ? "time step " + brief(scene.time_step) + " s" : "celerity Courant number " + brief(sisph.courant);
-  const bool moving = sisph.formulation == Sisph::Formulation::moving;
-  return (moving ? "sisph, moving, " : "sisph, ") + name_in(kernel_names(), sisph.kernel) + " kernel, l/dx " + brief(sisph.smoothing) + ", theta " + brief(sisph.theta) + ", Picard " + std::to_string(sisph.picard) +
-         ", " + step;
+  return (sisph.moving ? "sisph, moving, " : "sisph, ") + name_of(sisph.kernel) + " kernel, l/dx " + brief(sisph.smoothing) +
+         ", theta " + brief(sisph.theta) + ", Picard " + std::to_string(sisph.picard) + ", " + step;
 }
 
 std::string fpm_numerics(const Scene& scene) {
@@ -133,13 +119,9 @@ std::string numerics(const Scene& scene) {
   if (scene.method == "sisph") return sisph_numerics(scene);
   if (scene.fpm) return fpm_numerics(scene);
   const Sph& sph = scene.sph;
-  std::string out = scene.method + ", " + name_in(kernel_names(), sph.kernel) + " kernel" +
-                    (sph.lattice_correction ? " (lattice correction)" : "") + ", h/dx " + brief(sph.eta) + ", CFL " +
-                    brief(scene.cfl) + ", " + name_of(sph.stabilisation);
-  if (sph.stabilisation == Stabilisation::artificial_viscosity)
-    out += " a = " + brief(sph.viscosity[0]) + ", b = " + brief(sph.viscosity[1]);
-  if (sph.strength != 1) out += " x " + brief(sph.strength);
-  return out + (sph.acceleration == Acceleration::classical ? ", classical acceleration"
+  return scene.method + ", " + name_of(sph.kernel) + " kernel" + (sph.lattice_correction ? " (lattice correction)" : "") +
+         ", h/dx " + brief(sph.eta) + ", CFL " + brief(scene.cfl) + ", " + input::titled(sph.stabilisation) +
+         (sph.acceleration == Acceleration::classical ? ", classical acceleration"
                                                             : ", variational acceleration");
 }
 

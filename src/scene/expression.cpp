@@ -6,10 +6,10 @@
 #include <memory>
 #include <vector>
 
+#include "cellgrid/types.hpp"
+
 namespace freshet::input {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 struct Expression {
   mu::Parser parser;

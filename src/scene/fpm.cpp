@@ -1,6 +1,7 @@
 // The sections of method "fpm": [fluid], [[body]], [fpm], and domain.periodic.
 #include <cmath>
 
+#include "src/scene/choices.hpp"
 #include "src/scene/sections.hpp"
 #include "src/scene/water_region.hpp"
 
@@ -58,11 +59,7 @@ void read_fpm(Table& section, Scene& scene) {
   fpm.hole = section.number("hole").within(0.75, 1.25).otherwise(fpm.hole);
   if (const auto grading = section.function("grading").optional()) fpm.grading = *grading;
   fpm.by_neighbours = section.choice<bool>("support_by", {{"spacing", false}, {"neighbours", true}}).otherwise(fpm.by_neighbours);
-  fpm.scheme = section.choice<PressureScheme>("scheme", {{"filtered", PressureScheme::filtered},
-                                                         {"incremental", PressureScheme::incremental},
-                                                         {"plain", PressureScheme::plain},
-                                                         {"projection", PressureScheme::projection}})
-                   .otherwise(fpm.scheme);
+  fpm.scheme = section.choice("scheme", named(fpm::pressure_schemes())).otherwise(fpm.scheme);
   fpm.implicit_viscosity = section.choice<bool>("diffusion", {{"explicit", false}, {"implicit", true}}).otherwise(fpm.implicit_viscosity);
   fpm.slip = section.choice<bool>("walls", {{"slip", true}, {"no-slip", false}}).otherwise(fpm.viscosity == 0);
   fpm.tolerance = section.number("tolerance").within(1e-14, 1e-2).otherwise(fpm.tolerance);

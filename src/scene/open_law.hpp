@@ -1,16 +1,10 @@
-// What an open boundary of a scene imposes, as the laws of kernels/open_states.hpp.
+// What an open boundary of a scene imposes, its series on the device.
 #pragma once
-#include <functional>
-
 #include "kernels/open_in_time.hpp"
 #include "src/scene/scene.hpp"
 
 namespace freshet {
 
-// The law at a time [s].
-std::function<OpenLaw(double)> law_of(const OpenBoundary& boundary);
-
-// The same with its series on the device.
 LawInTime law_in_time(const OpenBoundary& boundary);
 
 }  // namespace freshet

@@ -150,7 +150,7 @@ std::vector<Placed> place(const Scene& scene, const Function& depth) {
 
 Box sorted_box(const Scene& scene) {
   // SISPH's sides that no wall holds go with the water.
-  const bool spreads = scene.method == "sisph" && scene.sisph.formulation == Sisph::Formulation::moving && scene.walls.empty();
+  const bool spreads = scene.method == "sisph" && scene.sisph.moving && scene.walls.empty();
   const auto beyond = [&](std::size_t axis) {
     if (scene.fpm && scene.fpm->periodic[axis]) return 0.0;
     return 32 * scene.water.spacing + (spreads ? 8 * (scene.domain.high[axis] - scene.domain.low[axis]) : 0.0);

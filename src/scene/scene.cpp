@@ -15,6 +15,13 @@ double Series::at(double time) const {
   return value[i - 1] + part * (value[i] - value[i - 1]);
 }
 
+OpenLaw OpenBoundary::at(double time) const {
+  OpenLaw now = law;
+  const auto value = [&](std::size_t k) { return k < imposed.size() ? imposed[k].series.at(time) : 0; };
+  std::visit([&](auto& l) { l.set(value(0), value(1)); }, now);
+  return now;
+}
+
 Scene::Scene() = default;
 Scene::Scene(const Scene&) = default;
 Scene::Scene(Scene&&) noexcept = default;

@@ -9,7 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "kernels/kernel_name.hpp"
+#include "kernels/fpm/pressure_scheme.hpp"
+#include "kernels/open_states.hpp"
+#include "kernels/sisph/momentum_form.hpp"
+#include "kernels/sisph/paths.hpp"
+#include "kernels/smoothing.hpp"
+#include "kernels/swe/stabilisation.hpp"
+#include "kernels/wall_kind.hpp"
 
 namespace freshet {
 
@@ -70,15 +76,16 @@ struct OpenBoundary {
   // m, two points or more (no sharp bends); the water is on its left. 1-D: (x, 1), (x, 0) at the left end and (x, 0), (x, 1) at
   // the right end.
   std::vector<Point> line;
-  // elevation: total free-surface level imposed, outgoing invariant kept (thesis 4.2).
-  // wave: level of the incoming wave alone; outgoing waves leave.
-  // velocity: inward normal velocity. discharge: total inward discharge of the line. state: level or depth and inward velocity.
-  // transmissive: what arrives leaves, against still water at `level` where it is given, else by zero gradient.
-  enum class Kind { elevation, wave, velocity, discharge, state, transmissive } kind = Kind::elevation;
-  Series level{}, depth{};        // m; no entries where not imposed
-  Series velocity{}, discharge{};  // m/s, m3/s (1-D: m2/s), inwards
-  bool by_width = false;         // discharge: distributed equally along the line, else by conveyance
+  OpenLaw law;         // kernels/open_states.hpp: what follows time is in `imposed`
+  struct Imposed {
+    std::string what;  // "level"
+    std::string unit;  // "m"; discharges m3/s (1-D: m2/s); velocities and discharges inwards
+    Series series;
+  };
+  std::vector<Imposed> imposed;  // in the order in which the law's set() takes them
   double spacing = 0;            // m, of the boundary particles; 0 = as the water
+
+  OpenLaw at(double time) const;
 };
 
 struct Gauge {
@@ -110,23 +117,18 @@ struct Transect {
   Point at(double place) const;    // the point of the line there
 };
 
-enum class Stabilisation { none, artificial_viscosity, lax_friedrichs, lax_friedrichs_muscl, two_shock, two_shock_muscl };
-// automatic: mirror images where every corner of the walls is a right one with the water inside, else rows. See kernels/walls.hpp.
-enum class Walling { automatic, none, vbp, mvbp, rows, mirror };
 enum class Acceleration { classical, variational };
 
 struct Sph {
   double eta = 1.2;  // h / dx
-  KernelName kernel = KernelName::cubic;
+  KernelChoice kernel;
   bool lattice_correction = false;  // the kernel's norm makes its sum over the starting lattice exact
-  Stabilisation stabilisation = Stabilisation::lax_friedrichs_muscl;
-  double strength = 1.0;  // factor on the Lax-Friedrichs term
-  std::array<double, 2> viscosity{1.0, 0.0};  // a, b of the artificial viscosity (2.53)
+  swe::AnyStabilisation stabilisation = swe::LaxFriedrichsMuscl{};
   Acceleration acceleration = Acceleration::variational;
   double newton_tolerance = 1e-5;  // of the relative density residual
   double h_floor = 0.8;            // x h0; the reader's default is 1.6^(-1/D): what a density 1.6 times the initial one gives
   double h_cap = 3.0;              // x h0
-  Walling walls = Walling::automatic;
+  WallKind walls = WallKind::automatic;
   bool slip = true;            // walls; false: they also hold the tangential velocity back
   bool mixed = false;          // pairs in single precision, what is made of their sums in double
   bool well_balanced = false;  // still water over any bed stays at rest to round-off (kernels/swe/well_balanced.hpp)
@@ -134,29 +136,20 @@ struct Sph {
 
 // The semi-implicit method.
 struct Sisph {
-  enum class Formulation { at_rest, moving };  // E: particles at rest, wet or dry; L: they move with the water, one mass each
-  // How a moving particle's path follows from its velocities (kernels/sisph/paths.hpp).
-  enum class Paths { theta, euler, rk2, rk3, leap_frog };
-  // The slope of a field: exact for linear fields, or normalised by Shepard's sum alone.
-  enum class Correction { krongauz_belytschko, shepard };
-  // at rest: the pairs' coefficients a_ij of the free surface's matrix, kept in memory or found anew in every product
-  enum class Coefficients { stored, recomputed };
-  // automatic: mass_flux where some place starts dry; conservative: mass_flux with pairwise antisymmetric pressure
-  enum class Momentum { automatic, semi_lagrangian, mass_flux, conservative };
   struct Solver {
     double tolerance;  // of the residual that a step starts from
     int most;          // iterations
   };
   double smoothing = 1.5;  // l / dx
-  KernelName kernel = KernelName::cubic;
+  KernelChoice kernel;
   double theta = 0.55;     // implicitness
   int picard = 2;
-  Momentum momentum = Momentum::automatic;
+  sisph::MomentumForm momentum;
   bool closure = true;     // pair areas closed: sum_j A_ij n_ij = 0
-  Correction correction = Correction::krongauz_belytschko;
-  Coefficients coefficients = Coefficients::stored;
-  Formulation formulation = Formulation::at_rest;
-  Paths paths = Paths::theta;  // moving
+  bool exact_slopes = true;  // for linear fields (Krongauz and Belytschko); false: normalised by Shepard's sum alone
+  bool recomputed = false;   // at rest: the coefficients a_ij of the free surface's matrix, in every product, not kept
+  bool moving = false;       // L: particles move with the water, one mass each; E: they are at rest, wet or dry
+  sisph::ParticlePath path;    // moving
   double jump = 0.25;          // moving: |v_i - v_j| dt / dx of neighbours at most
   Solver cg{1e-6, 2000}, newton{1e-6, 60};
   double courant = 1;      // celerity x dt / dx, where the scene names no time.dt
@@ -192,8 +185,6 @@ struct Merge {
 };
 
 // The incompressible Finite Pointset Method: a flow in a vertical plane, y upwards.
-enum class PressureScheme { filtered, incremental, plain, projection };  // see kernels/fpm/projection.hpp
-
 struct Body {
   std::vector<Point> outline;         // m, counter-clockwise, not closed; empty: a circle
   bool lattice = false;               // the outline is an upright rectangle
@@ -210,7 +201,7 @@ struct Fpm {
   double hole = 0.8;       // x dx: an empty circle larger than this gets a point
   Function grading;        // x dx, the spacing by place: 1 to 4; absent = 1 everywhere
   bool by_neighbours = false;  // each point's support from the number of its neighbours, `support` being that of a lattice
-  PressureScheme scheme = PressureScheme::filtered;
+  fpm::PressureScheme scheme;
   bool implicit_viscosity = false;  // it does not limit the step then
   bool slip = true;        // walls; false: they also hold the tangential velocity
   double tolerance = 1e-9;  // of the pressure equation

@@ -8,8 +8,6 @@
 namespace freshet::input {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 // A place that may be given by x alone.
 struct Middle {
   Point at{};

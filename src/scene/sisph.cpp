@@ -1,5 +1,5 @@
 // [sisph]: the semi-implicit method.
-#include "src/scene/names.hpp"
+#include "src/scene/choices.hpp"
 #include "src/scene/sections.hpp"
 
 namespace freshet::input {
@@ -20,15 +20,16 @@ void read_solver(Table& section, const std::string& key, Sisph::Solver& solver) 
 void read_sisph(Table& section, Scene& scene) {
   Sisph& sisph = scene.sisph;
   sisph.smoothing = section.number("smoothing").within(0.6, 4.0).otherwise(sisph.smoothing);
-  sisph.kernel = section.choice<KernelName>("kernel", kernel_names()).otherwise(sisph.kernel);
+  sisph.kernel = section.choice("kernel", named<KernelChoice>()).otherwise(sisph.kernel);
   sisph.theta = section.number("theta").within(0.5, 1).otherwise(sisph.theta);
   sisph.picard = section.integer("picard").within(1, 20).otherwise(sisph.picard);
-  sisph.momentum = section.choice<Sisph::Momentum>("momentum", momentum_names()).otherwise(sisph.momentum);
+  sisph.momentum = section.choice("momentum", named(sisph::momentum_forms())).otherwise(sisph.momentum);
   sisph.closure = section.boolean("closure").otherwise(sisph.closure);
-  sisph.correction = section.choice<Sisph::Correction>("correction", correction_names()).otherwise(sisph.correction);
-  sisph.coefficients = section.choice<Sisph::Coefficients>("coefficients", coefficient_names()).otherwise(sisph.coefficients);
-  sisph.formulation = section.choice<Sisph::Formulation>("formulation", formulation_names()).otherwise(sisph.formulation);
-  sisph.paths = section.choice<Sisph::Paths>("paths", path_names()).otherwise(sisph.paths);
+  sisph.exact_slopes =
+      section.choice<bool>("correction", {{"krongauz-belytschko", true}, {"shepard", false}}).otherwise(sisph.exact_slopes);
+  sisph.recomputed = section.choice<bool>("coefficients", {{"stored", false}, {"recomputed", true}}).otherwise(sisph.recomputed);
+  sisph.moving = section.choice<bool>("formulation", {{"at-rest", false}, {"moving", true}}).otherwise(sisph.moving);
+  sisph.path = section.choice("paths", named(sisph::particle_paths())).otherwise(sisph.path);
   sisph.jump = section.number("jump").within(0.01, 1).otherwise(sisph.jump);
   read_solver(section, "cg", sisph.cg);
   read_solver(section, "newton", sisph.newton);
@@ -50,10 +51,10 @@ void check_formulation(Table& section, const Scene& scene) {
   };
   if (scene.time_step > 0 && section.has("courant"))
     section.context().notes.push_back("sisph.courant counts where the scene names no time.dt: the step is " + rounded(scene.time_step) + " s");
-  if (scene.sisph.momentum == Sisph::Momentum::conservative && scene.sisph.picard < 2)
+  if (scene.sisph.momentum.conservative && scene.sisph.picard < 2)
     section.error("picard", "with one pass the conservative pressure acts on masses of another time and grows without bound",
                   "sisph.picard = 2 or more, or another sisph.momentum");
-  if (scene.sisph.formulation == Sisph::Formulation::at_rest) {
+  if (!scene.sisph.moving) {
     for (const char* key : {"paths", "jump"}) foreign(key, "that move", "leave it out, or sisph.formulation = \"moving\"");
     return;
   }

@@ -1,52 +1,38 @@
 // [sph]: kernel, stabilisation, walls and the density iteration of explicit SPH.
 #include <cmath>
 
-#include "src/scene/names.hpp"
+#include "src/scene/choices.hpp"
 #include "src/scene/sections.hpp"
 
 namespace freshet::input {
 namespace {
 
-enum class Flux { none, viscosity, lax_friedrichs, two_shock };
+using swe::AnyStabilisation;
 
-Stabilisation reconstructed(Flux flux, bool muscl) {
-  switch (flux) {
-    case Flux::none: return Stabilisation::none;
-    case Flux::viscosity: return Stabilisation::artificial_viscosity;
-    case Flux::lax_friedrichs: return muscl ? Stabilisation::lax_friedrichs_muscl : Stabilisation::lax_friedrichs;
-    case Flux::two_shock: return muscl ? Stabilisation::two_shock_muscl : Stabilisation::two_shock;
-  }
-  return Stabilisation::none;
+bool reconstructs(const AnyStabilisation& choice) {
+  return std::visit([](const auto& c) { return c.muscl; }, choice);
 }
 
+// The first of the alternatives of that name whose reconstruction is the one asked for.
 void read_stabilisation(Table& section, Sph& sph) {
-  const Names<Flux> fluxes{{"none", Flux::none},
-                           {"artificial-viscosity", Flux::viscosity},
-                           {"lax-friedrichs", Flux::lax_friedrichs},
-                           {"two-shock", Flux::two_shock}};
-  const Flux flux = section.choice<Flux>("stabilise", fluxes).otherwise(Flux::lax_friedrichs);
-  const std::string name = "'sph.stabilise' is '" + name_in(fluxes, flux) + "'";
-  Value<bool> muscl = section.boolean("muscl");
-  if ((flux == Flux::none || flux == Flux::viscosity) && muscl.otherwise(false))
-    muscl.fail("'sph.muscl' reconstructs for a flux, and " + name, "remove it, or use \"lax-friedrichs\" or \"two-shock\"");
-  sph.stabilisation = reconstructed(flux, muscl.otherwise(true));
-  Value<double> strength = section.number("strength").at_least(0);
-  if (strength.given() && flux != Flux::lax_friedrichs)
-    strength.fail("'sph.strength' is a factor on the Lax-Friedrichs term, and " + name, "remove it");
-  sph.strength = strength.otherwise(sph.strength);
-  Value<std::vector<double>> viscosity = section.numbers("viscosity", "two numbers: [a, b]");
-  if (viscosity.optional() && (viscosity.optional()->size() != 2 || (*viscosity.optional())[0] < 0 || (*viscosity.optional())[1] < 0))
-    viscosity.fail("'sph.viscosity' must be [a, b] with neither below 0");
-  if (viscosity.given() && flux != Flux::viscosity)
-    viscosity.fail("'sph.viscosity' belongs to the artificial viscosity, and " + name, "remove it");
-  if (viscosity.optional()) sph.viscosity = {(*viscosity.optional())[0], (*viscosity.optional())[1]};
+  AnyStabilisation& chosen = sph.stabilisation;
+  chosen = section.choice("stabilise", named<AnyStabilisation>()).otherwise(chosen);
+  const std::optional<bool> muscl = section.boolean("muscl").optional();
+  const std::vector<AnyStabilisation> all = alternatives<AnyStabilisation>();
+  const auto fits = [&](const AnyStabilisation& c) {
+    return name_of(c) == name_of(chosen) && reconstructs(c) == muscl.value_or(reconstructs(c));
+  };
+  const auto found = std::find_if(all.begin(), all.end(), fits);
+  if (found != all.end()) chosen = *found;
+  else reject(section, "stabilise", chosen, "muscl", reconstructs);
+  read_keys(section, "stabilise", chosen, KeyReader(section));
 }
 
 void read_walls(Table& section, Sph& sph) {
-  sph.walls = section.choice<Walling>("walls", walling_names()).otherwise(sph.walls);
+  sph.walls = section.choice("walls", named(wall_kinds())).otherwise(sph.walls);
   Value<bool> slip = section.boolean("slip");
-  if (!slip.otherwise(true) && (sph.walls == Walling::mirror || sph.walls == Walling::none))
-    slip.fail("walls of kind '" + name_in(walling_names(), sph.walls) + "' cannot hold the tangential velocity back",
+  if (!slip.otherwise(true) && !sph.walls.can_hold())
+    slip.fail("walls of kind '" + name_of(sph.walls) + "' cannot hold the tangential velocity back",
               "use walls = \"rows\"");
   sph.slip = slip.otherwise(sph.slip);
 }
@@ -67,7 +53,7 @@ bool read_sph(Table& section, Scene& scene) {
   Sph& sph = scene.sph;
   const int dimension = scene.domain.dimension;
   sph.eta = section.number("eta").within(0.5, 4.0).otherwise(dimension == 2 ? 1.2 : 1.0);
-  sph.kernel = section.choice<KernelName>("kernel", kernel_names()).otherwise(sph.kernel);
+  sph.kernel = section.choice("kernel", named<KernelChoice>()).otherwise(sph.kernel);
   sph.lattice_correction = section.boolean("lattice_correction").otherwise(sph.lattice_correction);
   read_stabilisation(section, sph);
   sph.newton_tolerance =

@@ -116,6 +116,7 @@ class Table {
   Table element(const std::string& key, std::size_t i);
 
   bool has(const std::string& key) const;
+  void accept(const std::string& key) { find(key); }  // makes it known
   bool has_text(const std::string& key) const;
   bool has_number(const std::string& key) const;
   bool has_table(const std::string& key) const;

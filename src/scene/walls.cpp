@@ -9,8 +9,6 @@
 namespace freshet::input {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 enum class WaterSide { inside, outside };
 
 WaterSide read_side_of_water(Table& section) {

@@ -35,9 +35,9 @@ void Solver<D>::start_moving() {
   moving_.emplace(particles_.size(), kernel_, mirror_walls(),
                   MovingOptions{scene_.gravity, sisph.theta, sisph.picard, scene_.water.spacing, h, support_,
                                 lattice_moment<D>(kernel_, h, scene_.water.spacing),
-                                sisph.correction == Sisph::Correction::krongauz_belytschko, sisph.cg.tolerance, sisph.cg.most});
+                                sisph.exact_slopes, sisph.cg.tolerance, sisph.cg.most});
   geometry_ = Geometry<D>{};
-  if (sisph.paths == Sisph::Paths::rk3)
+  if (sisph.path.remembers)
     for (const char* name : {"u_before", "v_before"})
       if (D == 2 || name[0] == 'u') particles_.real(name, "m/s", Carry::state);
   if (held_ > 0)
@@ -73,14 +73,7 @@ void Solver<D>::find_friction(double dt) {
 
 template <int D>
 PathWeights Solver<D>::path(double dt) const {
-  switch (scene_.sisph.paths) {
-    case Sisph::Paths::euler: return euler_path();
-    case Sisph::Paths::rk2: return rk2_path();
-    case Sisph::Paths::rk3: return rk3_path(dt, last_dt_);
-    case Sisph::Paths::leap_frog: return leap_frog_path();
-    case Sisph::Paths::theta: break;
-  }
-  return theta_path(scene_.sisph.theta);
+  return scene_.sisph.path.weights({scene_.sisph.theta, dt, last_dt_});
 }
 
 // A step, in as many parts as it takes for each to hold: what does not settle, or moves neighbours much further than they should, is

@@ -1,6 +1,6 @@
 // What the run loop asks of the solver's state: totals, point samples, run-up, restart scalars.
 #include "src/point_states.hpp"
-#include "src/scene/names.hpp"
+#include "kernels/choice.hpp"
 #include "src/sisph/solver.hpp"
 
 namespace freshet::sisph {
@@ -45,16 +45,16 @@ void Solver<D>::raise_wet_levels(const Shores& shores) const {
 
 template <int D>
 std::vector<std::string> Solver<D>::features() const {
-  std::vector<std::string> names{name_in(kernel_names(), scene_.sisph.kernel) + " kernel"};
-  if (scene_.sisph.correction == Sisph::Correction::shepard) names.push_back("slopes normalised by Shepard's sum alone");
+  std::vector<std::string> names{name_of(scene_.sisph.kernel) + " kernel"};
+  if (!scene_.sisph.exact_slopes) names.push_back("slopes normalised by Shepard's sum alone");
   if (moving_) {
-    names.push_back("particles that move with the water, paths by " + name_in(path_names(), scene_.sisph.paths));
+    names.push_back("particles that move with the water, paths by " + name_of(scene_.sisph.path));
   } else {
     names.push_back("particles at rest");
     names.push_back(paths_ ? "velocity along particle paths" : "momentum carried by the mass fluxes");
   }
   if (conservative_) names.push_back("conservative pressure");
-  if (scene_.sisph.coefficients == Sisph::Coefficients::recomputed) names.push_back("coefficients found anew in every product");
+  if (scene_.sisph.recomputed) names.push_back("coefficients found anew in every product");
   if (closure_.iterations > 0)
     names.push_back("pair areas closed in " + std::to_string(closure_.iterations) + " iterations, largest change " +
                     std::to_string(closure_.change));

@@ -5,7 +5,6 @@
 #include "cellgrid/assign.hpp"
 #include "cellgrid/launch.hpp"
 #include "src/errors.hpp"
-#include "src/scene/names.hpp"
 #include "src/scene/open_law.hpp"
 #include "src/scene/place.hpp"
 #include "src/sisph/beside.hpp"
@@ -178,14 +177,14 @@ void Solver<D>::build_geometry() {
   order_.measure_reach(particles_, h, support_);
   const int n = particles_.size();
   const VecField<double, D> x = vector_field(particles_, "x", "y", Vec<double, D>{});
-  const bool linear = scene_.sisph.correction == Sisph::Correction::krongauz_belytschko;
+  const bool linear = scene_.sisph.exact_slopes;
   geometry_ = measure_geometry<D>(n, kernel_, {order_.rows(), x, h, particles_.integer("kind"), scene_.water.spacing, cell_,
                                                mirror_walls(), linear});
   if (geometry_.images.count > 0) {  // room for their vectors
     particles_.resize(geometry_.images.slots() + lanes);
     particles_.resize(n);
   }
-  if (scene_.sisph.closure && scene_.sisph.formulation == Sisph::Formulation::at_rest) closure_ = close_areas(geometry_);
+  if (scene_.sisph.closure && !scene_.sisph.moving) closure_ = close_areas(geometry_);
   level_of_bed_ = bed_ ? particles_.real("bed") : Field<double>("sisph.flat_bed", static_cast<std::size_t>(n) + lanes);
   const Field<double> mass = particles_.real("mass"), depth = particles_.real("depth"), omega = geometry_.omega;
   launch("sisph::fill", Range(0, n), KOKKOS_LAMBDA(int i) { mass(i) = omega(i) * depth(i); });
@@ -193,12 +192,11 @@ void Solver<D>::build_geometry() {
 
 template <int D>
 void Solver<D>::build_momentum() {
-  using Momentum = Sisph::Momentum;
   const int slots = geometry_.images.slots();
   const Sisph& sisph = scene_.sisph;
   const SurfaceOptions options{scene_.gravity, sisph.theta, sisph.cg.tolerance, sisph.newton.tolerance, sisph.cg.most, sisph.newton.most};
   std::optional<PairSource<D>> source;
-  if (sisph.coefficients == Sisph::Coefficients::recomputed)
+  if (sisph.recomputed)
     source = PairSource<D>{kernel_, on_host(Kokkos::subview(particles_.real("h"), std::make_pair(0, 1)))(0), closure_.lambda};
   closure_.lambda = {};
   surface_.emplace(geometry_, order_.rows(), options, source);
@@ -207,11 +205,10 @@ void Solver<D>::build_momentum() {
   rim_.emplace(geometry_);
   for (VecField<double, D>* v : {&slope_, &explicit_, &carried_, &before_, &end_}) *v = scratch<D>("sisph.velocity", slots);
   push(water().v, 0, carried_);  // for good where all of a slice is held
-  conservative_ = sisph.momentum == Momentum::conservative;
-  const bool by_fluxes = conservative_ || sisph.momentum == Momentum::mass_flux ||
-                         (sisph.momentum == Momentum::automatic && active_->drying());
+  conservative_ = sisph.momentum.conservative;
+  const bool by_fluxes = sisph.momentum.by_fluxes(active_->drying());
   if ((conservative_ || !by_fluxes) && active_->drying())  // antisymmetric pressure on a film's mass knows no bound
-    throw SceneError("sisph.momentum = \"" + name_in(momentum_names(), sisph.momentum) + "\" needs water everywhere, and " +
+    throw SceneError("sisph.momentum = \"" + std::string(sisph.momentum.name) + "\" needs water everywhere, and " +
                      std::to_string(active_->dry()) + " particles are dry\n  help: use \"mass-flux\"");
   if (by_fluxes) {
     fluxes_.emplace(geometry_);

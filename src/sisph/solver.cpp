@@ -16,7 +16,7 @@ Solver<D>::Solver(const Scene& scene)
       order_(D, scene.water.spacing, sorted_box(scene)) {
   place_particles();
   build_geometry();
-  if (scene_.sisph.formulation == Sisph::Formulation::moving) {
+  if (scene_.sisph.moving) {
     start_moving();
   } else {
     build_momentum();

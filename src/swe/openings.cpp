@@ -4,7 +4,6 @@
 
 #include "cellgrid/launch.hpp"
 #include "kernels/swe/lattice.hpp"
-#include "src/scene/open_law.hpp"
 #include "src/swe/solver.hpp"
 
 namespace freshet::swe {
@@ -77,8 +76,8 @@ OpenLine<2> open_line(const Scene& scene, const std::vector<Piece>& pieces, cons
 // When what is imposed changes its slope.
 std::vector<double> times_of(const Boundary& b) {
   std::vector<double> times;
-  for (const Series* series : {&b.level, &b.depth, &b.velocity, &b.discharge})
-    times.insert(times.end(), series->t.begin(), series->t.end());
+  for (const Boundary::Imposed& imposed : b.imposed)
+    times.insert(times.end(), imposed.series.t.begin(), imposed.series.t.end());
   return times;
 }
 
@@ -101,18 +100,6 @@ void extend_past(Line& wall, const std::vector<Piece>& pieces, double spacing) {
   extend_end(wall.back(), wall[wall.size() - 2], pieces, spacing);
 }
 
-WallKind wall_kind(Walling wanted, bool exact_images) {
-  switch (wanted) {
-    case Walling::none: return WallKind::none;
-    case Walling::vbp: return WallKind::vbp;
-    case Walling::mvbp: return WallKind::mvbp;
-    case Walling::rows: return WallKind::rows;
-    case Walling::mirror: return WallKind::mirror;
-    case Walling::automatic: break;
-  }
-  return exact_images ? WallKind::mirror : WallKind::rows;
-}
-
 }  // namespace
 
 template <int D>
@@ -125,7 +112,7 @@ void Solver<D>::build_boundaries() {
     for (size_t k = 0; k + 1 < b.line.size(); ++k) lines.push_back(open_line(scene_, all, *piece++, Vec<double, D>{}));
     const OpenBufferOptions options{b.spacing > 0 ? b.spacing : scene_.water.spacing, scene_.sph.eta, support_,
                                     lattice_sums<D>(scene_.sph.eta, kernel_).density, friction_};
-    boundaries_.emplace_back(lines, law_of(b), times_of(b), options, scene_.gravity, owner);
+    boundaries_.emplace_back(lines, [b](double t) { return b.at(t); }, times_of(b), options, scene_.gravity, owner);
     owner += boundaries_.back().pieces();
   }
 }
@@ -142,7 +129,7 @@ void Solver<D>::build_walls() {
     if (D == 2) extend_past(lines.back(), pieces, spacing);
   }
   const Point middle{0.5 * (scene_.domain.low[0] + scene_.domain.high[0]), 0.5 * (scene_.domain.low[1] + scene_.domain.high[1])};
-  const WallKind kind = wall_kind(scene_.sph.walls, D == 1 || only_right_corners(lines));
+  const WallKind kind = scene_.sph.walls.resolved(D == 1 || only_right_corners(lines));
   // Rows reach as deep as the support of an h half as long again as the first.
   const double dx = scene_.water.spacing, reach = 1.5 * support_ * scene_.sph.eta * dx;
   walls_.emplace(lines, WallOptions{kind, dx, reach, scene_.sph.slip}, middle, support_);

@@ -2,16 +2,11 @@
 #include "cellgrid/launch.hpp"
 #include "src/errors.hpp"
 #include "src/point_states.hpp"
-#include "src/scene/names.hpp"
+#include "kernels/choice.hpp"
 #include "src/swe/solver.hpp"
 
 namespace freshet::swe {
 namespace {
-
-Names<WallKind> wall_kind_names() {
-  return {{"reflection only", WallKind::none}, {"VBP", WallKind::vbp}, {"MVBP", WallKind::mvbp}, {"rows", WallKind::rows},
-          {"mirror images", WallKind::mirror}};
-}
 
 template <int D>
 SortedWater<D> sorted_water(const Rows& rows, const Particles<D>& p, const Field<int>& kind) {
@@ -77,8 +72,8 @@ void Solver<D>::raise_wet_levels(const Shores& shores) const {
 
 template <int D>
 std::vector<std::string> Solver<D>::features() const {
-  std::vector<std::string> names{name_in(kernel_names(), scene_.sph.kernel) + " kernel", "density Newton",
-                                 name_of(scene_.sph.stabilisation)};
+  std::vector<std::string> names{name_of(scene_.sph.kernel) + " kernel", "density Newton",
+                                 std::visit([](const auto& s) { return s.title; }, stabilise_)};
   if (gradient_) names.push_back("velocity gradient");
   if (depth_gradient_) names.push_back("depth gradient");
   if (scene_.sph.well_balanced)
@@ -87,7 +82,7 @@ std::vector<std::string> Solver<D>::features() const {
     names.push_back(bed_->variational ? "bed, variational acceleration" : "bed, classical acceleration");
   if (friction_) names.push_back(friction_->roughness2.given() ? "Manning friction by place" : "Manning friction");
   if (walls_)
-    names.push_back("walls (" + name_in(wall_kind_names(), walls_->kind()) + "), " + std::to_string(walls_->points()) + " points");
+    names.push_back("walls (" + std::string(walls_->kind().title) + "), " + std::to_string(walls_->points()) + " points");
   if (!boundaries_.empty()) names.push_back("open boundaries: " + std::to_string(boundaries_.size()));
   if (scene_.split) names.push_back("splitting into " + std::to_string(scene_.split->into));
   if (scene_.merge) names.push_back("merging");

@@ -20,7 +20,7 @@ double largest(const AreaLimit& limit, double cell, double area) {
 }
 
 // 15 degrees: the corners of neighbours on a square lattice then pass each other at equal distances along x and y.
-constexpr double turn = 3.14159265358979323846 / 12;
+constexpr double turn = pi / 12;
 
 }  // namespace
 

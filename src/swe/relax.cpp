@@ -32,7 +32,7 @@ Scene still_water(const Scene& scene, bool lake) {
   still.sph.newton_tolerance = 1e-20;  // where the particles come to rest hangs on the tenth digit of their pressures
   still.manning.reset();
   still.sph.well_balanced = false;
-  still.sph.stabilisation = Stabilisation::lax_friedrichs;
+  still.sph.stabilisation = LaxFriedrichs{};
   return still;
 }
 

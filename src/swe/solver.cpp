@@ -12,16 +12,17 @@
 namespace freshet::swe {
 namespace {
 
-AnyStabilisation make_stabilisation(const Sph& sph, double gravity) {
-  switch (sph.stabilisation) {
-    case Stabilisation::none: return NoStabilisation{};
-    case Stabilisation::artificial_viscosity: return ArtificialViscosity{sph.viscosity[0], sph.viscosity[1]};
-    case Stabilisation::lax_friedrichs: return LaxFriedrichs{sph.strength};
-    case Stabilisation::lax_friedrichs_muscl: return LaxFriedrichsMuscl{sph.strength};
-    case Stabilisation::two_shock: return TwoShock{gravity};
-    case Stabilisation::two_shock_muscl: return TwoShockMuscl{gravity};
-  }
-  return NoStabilisation{};
+// Those whose pair body needs the scene's gravity hold it.
+template <class S>
+auto set_gravity(S& stabilise, double gravity, int) -> decltype(void(stabilise.gravity = gravity)) {
+  stabilise.gravity = gravity;
+}
+template <class S>
+void set_gravity(S&, double, long) {}
+
+AnyStabilisation under(double gravity, AnyStabilisation stabilise) {
+  std::visit([&](auto& s) { set_gravity(s, gravity, 0); }, stabilise);
+  return stabilise;
 }
 
 bool needs_velocity_gradient(const AnyStabilisation& stabilise) {
@@ -44,7 +45,7 @@ Solver<D>::Solver(const Scene& scene)
     : scene_(scene), kernel_(make_kernel<D>(scene.sph.kernel, scene.sph.eta, scene.sph.lattice_correction)),
       support_(std::visit([](const auto& k) { return k.support; }, kernel_)), margin_(margin_of(scene)),
       order_(D, scene.water.spacing, sorted_box(scene)),
-      stabilise_(make_stabilisation(scene.sph, scene.gravity)), gradient_(needs_velocity_gradient(stabilise_)),
+      stabilise_(under(scene.gravity, scene.sph.stabilisation)), gradient_(needs_velocity_gradient(stabilise_)),
       depth_gradient_(needs_depth_gradient(stabilise_)), imposed_alpha_(lattice_sums<D>(scene.sph.eta, kernel_).alpha) {
   build_bed();
   build_friction();

@@ -37,7 +37,7 @@ double angular_momentum(const Flow& flow) {
 TEST_CASE("conservation: mass exactly, momentum and angular momentum of a free drop to round-off") {
   Scene scene = free_drop();
   scene.sph.stabilisation =
-      GENERATE(Stabilisation::none, Stabilisation::lax_friedrichs, Stabilisation::lax_friedrichs_muscl);
+      GENERATE(as<swe::AnyStabilisation>{}, swe::NoStabilisation{}, swe::LaxFriedrichs{}, swe::LaxFriedrichsMuscl{});
   Flow flow(scene);
   const auto mass = flow.by_id("mass");
   const double px = momentum(flow, "u"), py = momentum(flow, "v"), turn = angular_momentum(flow);
@@ -59,7 +59,7 @@ Scene slosh() {
   scene.bed.elevation = [](double x, double y) { return 0.1 * (x * x + y * y); };
   scene.water.surface = [](double x, double) { return 0.08 + 0.02 * x; };
   scene.water.wet_above = 0.005;
-  scene.sph.stabilisation = Stabilisation::none;
+  scene.sph.stabilisation = swe::NoStabilisation{};
   scene.sph.acceleration = Acceleration::classical;
   scene.sph.newton_tolerance = 1e-12;
   return scene;
@@ -158,7 +158,7 @@ TEST_CASE("conservation: a lake at rest in a walled basin stays nearly at rest")
   CHECK(restlessness(lake(2, 0)) < 1e-4);    // images continue the lattice: round-off of the Newton, tolerance 1e-5
   CHECK(restlessness(lake(2, 0.1)) < 1e-2);  // Vacondio 2010, 1.4: below 0.01
   Scene scene = lake(2, 0);
-  scene.sph.walls = Walling::mvbp;
+  scene.sph.walls = WallKind::mvbp;
   // These walls lack the image of the second row, which is drawn to the wall by 0.03 to 0.4 g d/dx (SWE-FORMULAS 7) over
   // half a spacing: 0.2 to 0.45 sqrt(g d) but for the dissipation.
   CHECK(restlessness(scene) < 0.2);

@@ -9,7 +9,6 @@ using namespace freshet;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 
 std::vector<double> flow_pressures(const test::FlowRun& run) {
   const auto p = on_host(run.solver.flow_pressure());

@@ -14,7 +14,6 @@ using test::Point;
 namespace {
 
 constexpr double dx = 0.05;  // m
-const double pi = std::acos(-1.0);
 using Flow = std::function<Point(const Point&)>;  // m/s at m
 
 // A set of points that rides on a flow.

@@ -11,7 +11,6 @@ using namespace freshet;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 
 // Periodic along x, of unit height and 1 m2/s. wall: "slip", "no-slip" or "" for periodic along y too.
 Scene shear(double spacing, const std::string& profile, const std::string& wall, const std::string& diffusion) {

@@ -10,7 +10,6 @@
 
 using namespace freshet;
 using test::StepTraffic, test::Waits, test::sums;
-using Kind = freshet::OpenBoundary::Kind;
 
 namespace {
 
@@ -104,9 +103,9 @@ Scene observed_shore() {
 Scene open_channel(double length, double width) {
   Scene scene = test::bare_scene(2, {0, 0}, {length, width}, 0.05);
   scene.water.depth = [](double, double) { return 0.3; };
-  test::open_both(scene, Kind::discharge, Kind::elevation);
-  scene.boundaries[0].discharge = {{0, 1e3}, {0.025 * width, 0.03 * width}};
-  scene.boundaries[1].level = {{0, 1e3}, {0.3, 0.31}};
+  test::open_both(scene, ImposedDischarge{}, ImposedLevel{});
+  test::impose(scene.boundaries[0], "discharge", {{0, 1e3}, {0.025 * width, 0.03 * width}});
+  test::impose(scene.boundaries[1], "level", {{0, 1e3}, {0.3, 0.31}});
   return scene;
 }
 

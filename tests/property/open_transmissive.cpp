@@ -5,14 +5,13 @@
 
 using namespace freshet;
 using test::Flow;
-using Kind = freshet::OpenBoundary::Kind;
 
 namespace {
 
-OpenBoundary open_line(const char* name, Kind kind, std::vector<freshet::Point> line) {
+OpenBoundary open_line(const char* name, const OpenLaw& law, std::vector<freshet::Point> line) {
   OpenBoundary boundary;
   boundary.name = name;
-  boundary.kind = kind;
+  boundary.law = law;
   boundary.line = std::move(line);
   return boundary;
 }
@@ -25,9 +24,9 @@ Scene leaning_slope() {
   scene.bed.spacing = 0.5;
   scene.manning = 0.03;
   scene.water.depth = [](double, double) { return 0.0; };
-  scene.boundaries = {open_line("in", Kind::discharge, {{0, 8}, {0, 4}}), open_line("side", Kind::transmissive, {{0, 0}, {40, 0}}),
-                      open_line("end", Kind::transmissive, {{40, 0}, {40, 20}})};
-  scene.boundaries[0].discharge = {{0}, {1}};
+  scene.boundaries = {open_line("in", ImposedDischarge{}, {{0, 8}, {0, 4}}), open_line("side", Transmissive{}, {{0, 0}, {40, 0}}),
+                      open_line("end", Transmissive{}, {{40, 0}, {40, 20}})};
+  test::impose(scene.boundaries[0], "discharge", {{0}, {1}});
   scene.walls = {Wall{{{40, 20}, {0, 20}, {0, 8}}}, Wall{{{0, 4}, {0, 0}}}};
   return scene;
 }
@@ -55,7 +54,7 @@ TEST_CASE("transmissive: still water up to a shoreline stays") {
   scene.bed.elevation = [](double, double y) { return 0.05 * y - 0.5; };
   scene.bed.spacing = 0.5;
   scene.water.depth = [](double, double y) { return 0.5 - 0.05 * y; };
-  scene.boundaries = {open_line("side", Kind::transmissive, {{20, 0}, {20, 20}})};
+  scene.boundaries = {open_line("side", Transmissive{}, {{20, 0}, {20, 20}})};
   scene.walls = {Wall{{{20, 20}, {0, 20}, {0, 0}, {20, 0}}}};
   Flow flow(scene);
   const double initial = flow.method->totals().mass;

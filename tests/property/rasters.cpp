@@ -117,7 +117,7 @@ TEST_CASE("rasters: a uniform depth and velocity come back to the last cell at t
 
 TEST_CASE("rasters: boundary particles are no water") {
   Scene scene = pool();
-  test::open_left(scene, freshet::OpenBoundary::Kind::wave, {{0}, {0.4}});
+  test::open_left(scene, IncomingWave{}, {{0}, {0.4}});
   const Flow flow(scene);
   REQUIRE(std::as_const(*flow.method).fields().has("kind"));
   const CellGrid grid = square_grid({2, {-0.3, 0}, {-0.1, 0.8}}, 0.05);  // over the buffer, a kernel away from the water

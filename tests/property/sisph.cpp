@@ -166,7 +166,7 @@ TEST_CASE("sisph: friction holds a dam break over dry land back and keeps its wa
 
 TEST_CASE("sisph: an open boundary inside the domain is refused") {
   Scene scene = hump(0);
-  scene.boundaries = {test::open_end(scene, true, OpenBoundary::Kind::transmissive)};
+  scene.boundaries = {test::open_end(scene, true, Transmissive{})};
   for (freshet::Point& p : scene.boundaries[0].line) p[0] += 0.3;
   CHECK_THROWS_WITH(Flow(scene), Catch::Contains("on the sides of the domain alone"));
 }

@@ -13,7 +13,7 @@ double largest_difference(Scene scene, double dt, int steps) {
   scene.method = "sisph";
   scene.sph.eta = scene.sisph.smoothing;
   Flow stored(scene);
-  scene.sisph.coefficients = Sisph::Coefficients::recomputed;
+  scene.sisph.recomputed = true;
   Flow found(scene);
   for (int k = 0; k < steps; ++k) stored.step(dt), found.step(dt);
   const auto a = stored.real("depth"), b = found.real("depth");
@@ -47,8 +47,8 @@ TEST_CASE("sisph recomputed: water that runs over dry islands with friction") {
 TEST_CASE("sisph recomputed: a wave through a channel with open ends, in 1-D") {
   Scene scene = test::bare_scene(1, {0, 0}, {20, 0}, 0.1);
   scene.water.depth = [](double, double) { return 1.0; };
-  test::open_both(scene, OpenBoundary::Kind::wave, OpenBoundary::Kind::transmissive);
-  scene.boundaries[0].level = {{0, 1, 2, 3, 1e9}, {1, 1, 1.05, 1, 1}};
-  scene.boundaries[1].level = {{0, 1e9}, {1, 1}};
+  test::open_both(scene, IncomingWave{}, Transmissive{});
+  test::impose(scene.boundaries[0], "level", {{0, 1, 2, 3, 1e9}, {1, 1, 1.05, 1, 1}});
+  test::impose(scene.boundaries[1], "level", {{0, 1e9}, {1, 1}});
   CHECK(largest_difference(scene, 0.03, 200) <= 1e-11);
 }

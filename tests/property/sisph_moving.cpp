@@ -55,11 +55,11 @@ TEST_CASE("sisph moving: masses do not change by a bit, and all the water stays 
 }
 
 TEST_CASE("sisph moving: in water that all moves the same happens, further on") {
-  const auto paths = GENERATE(Sisph::Paths::theta, Sisph::Paths::euler, Sisph::Paths::rk2, Sisph::Paths::rk3, Sisph::Paths::leap_frog);
+  const sisph::ParticlePath path = GENERATE(from_range(sisph::particle_paths()));
   constexpr double u = 2, v = -1, dt = 0.01;
   constexpr int steps = 12;
   Scene still_scene = hump(), carried_scene = hump(u, v);
-  still_scene.sisph.paths = carried_scene.sisph.paths = paths;
+  still_scene.sisph.path = carried_scene.sisph.path = path;
   still_scene.sisph.cg.tolerance = carried_scene.sisph.cg.tolerance = 1e-12;
   Flow still(still_scene), carried(carried_scene);
   for (int n = 0; n < steps; ++n) still.step(dt), carried.step(dt);
@@ -100,7 +100,7 @@ TEST_CASE("sisph moving: between walls a step allocates nothing either") {
 
 TEST_CASE("sisph moving: particles at rest launch nothing of it") {
   Scene scene = hump();
-  scene.sisph.formulation = Sisph::Formulation::at_rest;
+  scene.sisph.moving = false;
   Flow flow(scene);
   const test::Recording recording;
   flow.many_steps(2);

@@ -40,7 +40,7 @@ TEST_CASE("skips: walls and open boundaries allocate nothing inside a step eithe
   Scene scene = test::bare_scene(2, {0, 0}, {1.2, 0.4}, 0.05);
   scene.water.depth = [](double x, double) { return 0.3 + 0.02 * x; };
   if (GENERATE(false, true))
-    test::open_left(scene, freshet::OpenBoundary::Kind::wave, {{0}, {0.3}});
+    test::open_left(scene, IncomingWave{}, {{0}, {0.3}});
   else
     test::close_box(scene);
   CAPTURE(scene.boundaries.size());
@@ -71,7 +71,7 @@ TEST_CASE("skips: fields come with the features that need them") {
   CHECK(bare.count("strain_xx") == 1);  // MUSCL is the default
 
   Scene scene = drop();
-  scene.sph.stabilisation = Stabilisation::lax_friedrichs;
+  scene.sph.stabilisation = swe::LaxFriedrichs{};
   CHECK(minus(bare, field_names(scene)) == Names{"strain_xx", "strain_xy", "strain_yy"});
 
   scene = drop();
@@ -87,7 +87,7 @@ TEST_CASE("skips: fields come with the features that need them") {
   CHECK(field_names(scene) == bare);  // walls have points of their own
 
   scene = drop();
-  test::open_left(scene, freshet::OpenBoundary::Kind::wave, {{0}, {0.1}});
+  test::open_left(scene, IncomingWave{}, {{0}, {0.1}});
   CHECK(minus(field_names(scene), bare) == Names{"kind"});
 }
 
@@ -104,7 +104,7 @@ TEST_CASE("skips: launches come with the features that need them") {
   CHECK(extra_labels(scene) == Names{"walls::felt_h", "walls::list", "walls::reflect"});
 
   scene = drop();
-  test::open_left(scene, freshet::OpenBoundary::Kind::wave, {{0}, {0.1}});
+  test::open_left(scene, IncomingWave{}, {{0}, {0.1}});
   scene.walls.clear();
   const Names opened = extra_labels(scene);
   CHECK(opened.count("open::convert") == 1);

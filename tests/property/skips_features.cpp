@@ -13,7 +13,6 @@ using namespace freshet;
 using test::bare_step, test::drop, test::extra_labels, test::field_names, test::launches, test::minus, test::Names;
 using test::Flow;
 using test::Recording;
-using Kind = freshet::OpenBoundary::Kind;
 
 namespace {
 
@@ -102,14 +101,15 @@ TEST_CASE("skips: with a fixed h the density is the plain sum over all particles
 
 TEST_CASE("skips: gradients belong to the stabilisations that reconstruct") {
   const Names bare = field_names(drop());
-  for (const auto kind : {Stabilisation::none, Stabilisation::artificial_viscosity, Stabilisation::lax_friedrichs, Stabilisation::two_shock}) {
+  for (const swe::AnyStabilisation& kind : std::initializer_list<swe::AnyStabilisation>{
+           swe::NoStabilisation{}, swe::ArtificialViscosity{}, swe::LaxFriedrichs{}, swe::TwoShock{}}) {
     Scene scene = drop();
     scene.sph.stabilisation = kind;
     CHECK(minus(bare, field_names(scene)) == velocity_gradient);
     CHECK(extra_labels(scene) == Names{});
   }
   Scene scene = drop();
-  scene.sph.stabilisation = Stabilisation::two_shock_muscl;
+  scene.sph.stabilisation = swe::TwoShockMuscl{};
   CHECK(minus(field_names(scene), bare) == Names{"depth_slope_x", "depth_slope_y"});
   CHECK(extra_labels(scene) == Names{"swe::depth_gradient"});
 }
@@ -118,7 +118,7 @@ TEST_CASE("skips: other kernels and the lattice correction add nothing") {
   const Names bare = field_names(drop());
   Scene scene = drop();
   scene.sph.lattice_correction = true;
-  for (const auto kernel : {KernelName::quartic, KernelName::quintic, KernelName::wendland, KernelName::gaussian}) {
+  for (const KernelChoice& kernel : alternatives<KernelChoice>()) {
     scene.sph.kernel = kernel;
     CHECK(field_names(scene) == bare);
     CHECK(extra_labels(scene) == Names{});
@@ -129,9 +129,9 @@ TEST_CASE("skips: every kind of wall adds the list of its points and the reflect
   Scene scene = drop();
   test::close_box(scene);
   const auto walled = with(with(bare_step(13), "swe::kick_and_drift", "walls::reflect"), "cellgrid::list", "walls::list");
-  const auto kind = GENERATE(Walling::automatic, Walling::none, Walling::vbp, Walling::mvbp, Walling::rows, Walling::mirror);
+  const auto kind = GENERATE(WallKind::automatic, WallKind::none, WallKind::vbp, WallKind::mvbp, WallKind::image_rows, WallKind::images);
   scene.sph.walls = kind;
-  const bool mirrors = kind == Walling::automatic || kind == Walling::mirror;  // which ask how far neighbours' images reach
+  const bool mirrors = kind.by_corners || kind.mirror;  // which ask how far neighbours' images reach
   CHECK(launches(scene) == (mirrors ? with(walled, "cellgrid::list", "walls::felt_h") : walled));
   CHECK(field_names(scene) == field_names(drop()));
 }
@@ -151,9 +151,9 @@ TEST_CASE("skips: every kind of open boundary adds the field of kinds and launch
   Scene scene = test::bare_scene(2, {0, 0}, {1.2, 0.4}, 0.05);
   scene.water.depth = [](double, double) { return 0.3; };
   const Names bare = field_names(scene);
-  const auto kind = GENERATE(Kind::elevation, Kind::wave, Kind::velocity, Kind::discharge, Kind::state, Kind::transmissive);
-  test::open_left(scene, kind, {{0}, {0.3}});
-  scene.boundaries[0].velocity = scene.boundaries[0].discharge = {{0}, {0.01}};
+  const OpenLaw law = GENERATE(from_range(alternatives<OpenLaw>()));
+  test::open_left(scene, law, {{0}, {0.3}});
+  for (const char* what : {"velocity", "discharge"}) test::impose(scene.boundaries[0], what, {{0}, {0.01}});
   scene.walls.clear();
   CHECK(minus(field_names(scene), bare) == Names{"kind"});
   for (const auto& label : extra_labels(scene)) {

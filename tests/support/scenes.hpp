@@ -5,9 +5,11 @@
 #include <functional>
 #include <memory>
 #include <numeric>
+#include <stdexcept>
 #include <vector>
 
 #include "src/method.hpp"
+#include "src/scene/choices.hpp"
 
 namespace freshet::test {
 
@@ -33,8 +35,26 @@ inline void close_box(Scene& scene) {
     scene.walls = {Wall{{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}, {x0, y0}}}};
 }
 
+// One of a list of choices, by the word that a scene would say.
+template <class Choice>
+Choice pick(const std::vector<Choice>& choices, const std::string& word) {
+  for (const Choice& choice : choices)
+    if (name_of(choice) == word) return choice;
+  throw std::invalid_argument("no choice is called " + word);
+}
+
+// What the law of an open boundary imposes; nothing where it knows no such quantity.
+inline void impose(OpenBoundary& boundary, const std::string& what, Series series) {
+  if (!input::has_key(boundary.law, what)) return;
+  if (auto* state = std::get_if<ImposedState>(&boundary.law); state && what != "velocity") state->above_bed = what == "depth";
+  if (auto* open = std::get_if<Transmissive>(&boundary.law)) open->levelled = !series.t.empty();
+  for (OpenBoundary::Imposed& i : boundary.imposed)
+    if (i.what == what) return void(i.series = std::move(series));
+  boundary.imposed.insert(what == "velocity" ? boundary.imposed.end() : boundary.imposed.begin(), {what, "", std::move(series)});
+}
+
 // An open boundary at x = x0 or x = x1 of the domain, all over it.
-inline OpenBoundary open_end(const Scene& scene, bool left, OpenBoundary::Kind kind) {
+inline OpenBoundary open_end(const Scene& scene, bool left, const OpenLaw& law) {
   const auto [x0, y0] = scene.domain.low;
   const auto [x1, y1] = scene.domain.high;
   OpenBoundary boundary;
@@ -42,22 +62,22 @@ inline OpenBoundary open_end(const Scene& scene, bool left, OpenBoundary::Kind k
   const double low = scene.domain.dimension == 2 ? y0 : 0, high = scene.domain.dimension == 2 ? y1 : 1;
   if (left) boundary.line = {{x0, high}, {x0, low}};
   else boundary.line = {{x1, low}, {x1, high}};
-  boundary.kind = kind;
+  boundary.law = law;
   return boundary;
 }
 
 // Open on the left, walls elsewhere.
-inline void open_left(Scene& scene, OpenBoundary::Kind kind, Series level) {
+inline void open_left(Scene& scene, const OpenLaw& law, Series level) {
   const auto [x0, y0] = scene.domain.low;
   const auto [x1, y1] = scene.domain.high;
   const bool plane = scene.domain.dimension == 2;
-  scene.boundaries = {open_end(scene, true, kind)};
-  scene.boundaries[0].level = std::move(level);
+  scene.boundaries = {open_end(scene, true, law)};
+  test::impose(scene.boundaries[0], "level", std::move(level));
   scene.walls = {plane ? Wall{{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}} : Wall{{{x1, 0}}}};
 }
 
 // Open at both ends, walls along the channel: the caller sets what is imposed.
-inline void open_both(Scene& scene, OpenBoundary::Kind left, OpenBoundary::Kind right) {
+inline void open_both(Scene& scene, const OpenLaw& left, const OpenLaw& right) {
   const auto [x0, y0] = scene.domain.low;
   const auto [x1, y1] = scene.domain.high;
   scene.boundaries = {open_end(scene, true, left), open_end(scene, false, right)};

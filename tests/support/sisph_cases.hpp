@@ -37,7 +37,7 @@ inline Keys at(int particles, double dt, Keys more = {}) {
 inline Scene moving_scene(int dimension, const freshet::Point& low, const freshet::Point& high, double spacing) {
   Scene scene = bare_scene(dimension, low, high, spacing);
   scene.method = "sisph";
-  scene.sisph.formulation = Sisph::Formulation::moving;
+  scene.sisph.moving = true;
   scene.sph.eta = scene.sisph.smoothing;
   return scene;
 }

@@ -11,7 +11,6 @@ using freshet::test::Point;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 
 enum class Edges { mixed, flux, periodic };
 

@@ -60,7 +60,7 @@ void check_images(const std::vector<Grain>& grains, const std::vector<Grain>& al
   auto options = test::tight(D);
   options.margin = margin;
   Cloud<D> walled(grains, dx), whole(all, dx);
-  walled.add_walls(walls, {1, 1}, WallKind::mirror);
+  walled.add_walls(walls, {1, 1}, WallKind::images);
   for (Cloud<D>* cloud : {&walled, &whole}) {
     cloud->settle(options);
     cloud->force(stabilise);
@@ -97,7 +97,7 @@ TEST_CASE("mirror walls: a still lattice in a box feels nothing anywhere") {
   const Polyline box{{0, 0}, {2, 0}, {2, 1.5}, {0, 1.5}, {0, 0}};
   const auto grains = test::still_water(2, test::lattice(2, {0, 20, 0, 15}, dx), dx, 0.7, 1.2);
   Cloud<2> cloud(grains, dx);
-  cloud.add_walls({box}, {1, 1}, WallKind::mirror);
+  cloud.add_walls({box}, {1, 1}, WallKind::images);
   cloud.settle(test::tight(2));
   cloud.force(swe::LaxFriedrichsMuscl{1});
   const auto depth = cloud.by_id("depth");
@@ -112,7 +112,7 @@ TEST_CASE("mirror walls: a still lattice in a box feels nothing anywhere") {
 TEST_CASE("mirror walls: the force keeps the momentum along a wall and pushes away from it") {
   const auto grains = water(false);
   Cloud<2> cloud(grains, dx);
-  cloud.add_walls(straight, {0, 1}, WallKind::mirror);
+  cloud.add_walls(straight, {0, 1}, WallKind::images);
   cloud.settle(test::tight(2));
   cloud.force(swe::LaxFriedrichs{1});
   const auto m = cloud.by_id("mass"), tx = cloud.by_id("tx"), ty = cloud.by_id("ty");

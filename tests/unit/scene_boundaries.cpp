@@ -6,7 +6,6 @@
 
 using namespace freshet;
 using namespace freshet::test;
-using Kind = freshet::OpenBoundary::Kind;
 
 namespace {
 
@@ -16,27 +15,35 @@ const std::string square =
 OpenBoundary boundary(const std::string& keys) {
   return read_text(square + "[[boundary]]\nside = \"left\"\n" + keys).boundaries.at(0);
 }
+// What is imposed, `what` = "level".
+Series series(const OpenBoundary& boundary, const std::string& what) {
+  for (const OpenBoundary::Imposed& imposed : boundary.imposed)
+    if (imposed.what == what) return imposed.series;
+  return {};
+}
 std::string error(const std::string& keys) { return failure(square + "[[boundary]]\n" + keys).text; }
 
 }  // namespace
 
 TEST_CASE("boundary types read what they impose") {
-  CHECK(boundary("type = \"velocity\"\nvelocity = 0.3\n").velocity.at(7) == 0.3);
+  CHECK(series(boundary("type = \"velocity\"\nvelocity = 0.3\n"), "velocity").at(7) == 0.3);
   const OpenBoundary flood =
       boundary("type = \"discharge\"\ndischarge = { times = [0, 10, 20], values = [0, 4, 2] }\n"
                "distribute = \"width\"\nspacing = 2\n");
-  CHECK(flood.kind == Kind::discharge);
-  CHECK(flood.discharge.at(5) == 2);
-  CHECK(flood.discharge.at(15) == 3);
-  CHECK(flood.by_width);
+  CHECK(series(flood, "discharge").at(5) == 2);
+  CHECK(std::get<ImposedDischarge>(flood.at(15)).total == 3);
+  CHECK(std::get<ImposedDischarge>(flood.law).by_width);
   CHECK(flood.spacing == 2);
   const OpenBoundary state = boundary("type = \"state\"\ndepth = 0.1\nvelocity = 4\n");
-  CHECK(state.depth.at(0) == 0.1);
-  CHECK(state.velocity.at(0) == 4);
-  CHECK(state.level.t.empty());
-  CHECK(boundary("type = \"transmissive\"\n").level.t.empty());
-  CHECK(boundary("type = \"transmissive\"\nlevel = 1\n").level.at(3) == 1);
-  CHECK(boundary("type = \"elevation\"\nlevel = { times = [0, 20], values = [1, 2] }\n").level.at(10) == 1.5);
+  const auto there = std::get<ImposedState>(state.at(0));
+  CHECK(there.stage == 0.1);
+  CHECK(there.above_bed);
+  CHECK(there.inward == 4);
+  CHECK_FALSE(std::get<Transmissive>(boundary("type = \"transmissive\"\n").law).levelled);
+  const auto levelled = std::get<Transmissive>(boundary("type = \"transmissive\"\nlevel = 1\n").at(3));
+  CHECK(levelled.levelled);
+  CHECK(levelled.level == 1);
+  CHECK(std::get<ImposedLevel>(boundary("type = \"elevation\"\nlevel = { times = [0, 20], values = [1, 2] }\n").at(10)).level == 1.5);
 }
 
 TEST_CASE("a boundary may follow a bent line") {
@@ -84,5 +91,5 @@ TEST_CASE("a series written out survives the round trip through the scene's text
                                          "discharge = { times = [0, 10, 20], values = [0, 4, 2] }\n");
   const Scene again = read_text(scene.text);
   CHECK(again.text == scene.text);
-  CHECK(again.boundaries.at(0).discharge.value == std::vector<double>{0, 4, 2});
+  CHECK(series(again.boundaries.at(0), "discharge").value == std::vector<double>{0, 4, 2});
 }

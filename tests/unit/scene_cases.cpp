@@ -99,7 +99,7 @@ TEST_CASE("Case okushiri") {
   CHECK(scene.bed.range[0] == Approx(-0.13535));
   CHECK(scene.bed.range[1] == Approx(0.125));
   CHECK(scene.bed.nodata == 0);
-  CHECK(scene.boundaries.at(0).level.t.back() >= 22.5);
+  CHECK(scene.boundaries.at(0).imposed.at(0).series.t.back() >= 22.5);
   REQUIRE(scene.walls.size() == 1);
   CHECK(scene.walls[0].line.size() == 4);
   REQUIRE(scene.gauges.size() == 3);

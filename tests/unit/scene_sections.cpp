@@ -29,7 +29,7 @@ TEST_CASE("Defaults are those of the method") {
   CHECK_FALSE(pool.manning);
   CHECK_FALSE(pool.bed.elevation);
   CHECK(pool.sph.eta == 1.2);
-  CHECK(pool.sph.stabilisation == Stabilisation::lax_friedrichs_muscl);
+  CHECK(std::holds_alternative<swe::LaxFriedrichsMuscl>(pool.sph.stabilisation));
   CHECK(pool.sph.acceleration == Acceleration::variational);
   CHECK(pool.water.start == Water::Start::cells);
   CHECK_FALSE(pool.compare.exact);
@@ -152,7 +152,7 @@ TEST_CASE("The water is on the left of every side") {
     const double cross = (line[1][0] - line[0][0]) * (middle[1] - line[0][1]) -
                          (line[1][1] - line[0][1]) * (middle[0] - line[0][0]);
     CHECK(cross > 0);
-    CHECK(scene.boundaries[0].level.at(3) == 0.2);
+    CHECK(scene.boundaries[0].imposed.at(0).series.at(3) == 0.2);
   }
   const auto left =
       read_text(canal("[[boundary]]\ntype = \"wave\"\nlevel = 0\nside = \"left\"\n")).boundaries[0].line;

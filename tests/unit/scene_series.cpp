@@ -24,7 +24,7 @@ void check_wave(const std::string& data, const std::string& columns) {
   const Directory here;
   here.write("wave.txt", data);
   const Scene scene = read_in(here, boundary(columns));
-  const Series& level = scene.boundaries.at(0).level;
+  const Series& level = scene.boundaries.at(0).imposed.at(0).series;
   CHECK(level.t == std::vector<double>{0, 5, 10});
   REQUIRE(level.value.size() == 3);
   for (int i = 0; i < 3; ++i) CHECK(level.value[i] == Approx(0.1 * (i + 1)));  // rounding of scale and offset

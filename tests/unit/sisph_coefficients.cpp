@@ -14,7 +14,7 @@ constexpr double dx = 0.1, smoothing = 1.5;  // m, l / dx
 struct Setting {
   double disorder = 0;
   bool walls = false, islands = false, friction = false;
-  KernelName kernel = KernelName::cubic;
+  KernelChoice kernel = kernel::Cubic{};
 };
 
 // A basin of 16 x 16 cells, its rim held unless there are walls, under waves; deep, or with a bed that stands out of the water.
@@ -135,6 +135,6 @@ TEST_CASE("sisph coefficients: the same beside walls, with friction, with dry is
 }
 
 TEST_CASE("sisph coefficients: the same for every kernel") {
-  const KernelName kernel = GENERATE(KernelName::quartic, KernelName::quintic, KernelName::gaussian, KernelName::wendland);
+  const KernelChoice kernel = GENERATE(as<KernelChoice>{}, kernel::Quartic{}, kernel::Quintic{}, kernel::Gaussian{}, kernel::Wendland{});
   compare({0.2, true, false, false, kernel});
 }

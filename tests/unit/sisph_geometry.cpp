@@ -35,7 +35,7 @@ struct Block {
     for (int i = 0; i < fields.size(); ++i) kind(i) = held[static_cast<std::size_t>(i)], fields.real("h")(i) = smoothing * dx;
     order.sort(fields);
     order.measure_reach(fields, fields.real("h"), 2.0);
-    g = sisph::measure_geometry<D>(fields.size(), make_kernel<D>(KernelName::cubic, smoothing, false),
+    g = sisph::measure_geometry<D>(fields.size(), make_kernel<D>(kernel::Cubic{}, smoothing, false),
                                    {order.rows(), test::vector_field<D>(fields, "x", "y"), fields.real("h"),
                                     fields.integer("kind"), dx, D == 2 ? dx * dx : dx});
   }

@@ -15,7 +15,6 @@ using V2 = Vec<double, 2>;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 
 struct Mirrored {
   V2 x;

@@ -1,4 +1,5 @@
 // The smoothing kernels: norm, slope, support.
+#include "kernels/choice.hpp"
 #include "kernels/smoothing.hpp"
 
 #include <catch2/catch.hpp>
@@ -88,13 +89,10 @@ TEST_CASE("smoothing: packs give what scalars give") {
 
 namespace {
 
-constexpr KernelName all_kernels[] = {KernelName::cubic, KernelName::quartic, KernelName::quintic, KernelName::gaussian,
-                                      KernelName::wendland};
-
 // Integral over the line or the plane by Simpson's rule with 4000 steps.
 template <int D>
-double general_norm(KernelName name) {
-  const auto kernel = general_kernel<D>(name);
+double general_norm(const KernelChoice& choice) {
+  const auto kernel = general_kernel<D>(choice);
   constexpr int n = 4000;
   double sum = 0;
   for (int k = 0; k <= n; ++k) {
@@ -105,8 +103,8 @@ double general_norm(KernelName name) {
 }
 
 template <int D>
-double general_slope_error(KernelName name) {
-  const auto kernel = general_kernel<D>(name);
+double general_slope_error(const KernelChoice& choice) {
+  const auto kernel = general_kernel<D>(choice);
   constexpr double s = 1e-5;
   double worst = 0;
   for (double q = s; q < kernel.support - 2 * s; q += 0.0037)
@@ -126,20 +124,20 @@ double lattice_excess(const AnyKernel<D>& kernel, double eta) {
 }  // namespace
 
 TEST_CASE("smoothing: every kernel integrates to one and slopes as its derivative") {
-  for (const KernelName name : all_kernels) {
-    CAPTURE(static_cast<int>(name));
+  for (const KernelChoice& choice : alternatives<KernelChoice>()) {
+    CAPTURE(name_of(choice));
     // The Gaussian is cut at 3: erfc(3) = 2.2e-5 is missing in 1-D, exp(-9) = 1.23e-4 in 2-D. In both the cut halves one end of
     // Simpson's rule: 1e-3/3 of a value of 1e-4.
-    const double cut = name == KernelName::gaussian ? 1 : 0;
-    CHECK(general_norm<1>(name) == Approx(1 - cut * std::erfc(3.0)).epsilon(cut > 0 ? 1e-6 : 1e-9));
-    CHECK(general_norm<2>(name) == Approx(1 - cut * std::exp(-9.0)).epsilon(cut > 0 ? 1e-6 : 1e-9));
-    CHECK(general_slope_error<1>(name) < 1e-9);  // s^2/6 of the third derivative with s = 1e-5, and rounding 1e-16/s
-    CHECK(general_slope_error<2>(name) < 1e-9);
+    const double cut = std::holds_alternative<kernel::Gaussian>(choice) ? 1 : 0;
+    CHECK(general_norm<1>(choice) == Approx(1 - cut * std::erfc(3.0)).epsilon(cut > 0 ? 1e-6 : 1e-9));
+    CHECK(general_norm<2>(choice) == Approx(1 - cut * std::exp(-9.0)).epsilon(cut > 0 ? 1e-6 : 1e-9));
+    CHECK(general_slope_error<1>(choice) < 1e-9);  // s^2/6 of the third derivative with s = 1e-5, and rounding 1e-16/s
+    CHECK(general_slope_error<2>(choice) < 1e-9);
   }
 }
 
 TEST_CASE("smoothing: the cubic spline as data is the cubic spline") {
-  const auto kernel = general_kernel<2>(KernelName::cubic);
+  const auto kernel = general_kernel<2>(kernel::Cubic{});
   for (double q = 0; q < 2.5; q += 0.01) {
     CHECK(kernel.at(q).w == Approx(CubicSpline<2>::at(q).w).margin(1e-15));
     CHECK(kernel.at(q).dw == Approx(CubicSpline<2>::at(q).dw).margin(1e-15));
@@ -148,11 +146,11 @@ TEST_CASE("smoothing: the cubic spline as data is the cubic spline") {
 
 TEST_CASE("smoothing: lattice bias as measured, and none with the correction") {
   // SWE-FORMULAS 1.7; half a unit of the last printed digit.
-  CHECK(lattice_excess<2>(make_kernel<2>(KernelName::wendland, 1.2, false), 1.2) == Approx(1.8e-2).margin(0.5e-3));
-  CHECK(lattice_excess<2>(make_kernel<2>(KernelName::wendland, 2.0, false), 2.0) == Approx(1.2e-3).margin(0.5e-4));
-  CHECK(std::abs(lattice_excess<2>(make_kernel<2>(KernelName::quintic, 1.1, false), 1.1)) <= 1.4e-4);
-  for (const KernelName name : all_kernels) {
-    CHECK(std::abs(lattice_excess<1>(make_kernel<1>(name, 1.2, true), 1.2)) < 1e-13);
-    CHECK(std::abs(lattice_excess<2>(make_kernel<2>(name, 1.2, true), 1.2)) < 1e-13);
+  CHECK(lattice_excess<2>(make_kernel<2>(kernel::Wendland{}, 1.2, false), 1.2) == Approx(1.8e-2).margin(0.5e-3));
+  CHECK(lattice_excess<2>(make_kernel<2>(kernel::Wendland{}, 2.0, false), 2.0) == Approx(1.2e-3).margin(0.5e-4));
+  CHECK(std::abs(lattice_excess<2>(make_kernel<2>(kernel::Quintic{}, 1.1, false), 1.1)) <= 1.4e-4);
+  for (const KernelChoice& choice : alternatives<KernelChoice>()) {
+    CHECK(std::abs(lattice_excess<1>(make_kernel<1>(choice, 1.2, true), 1.2)) < 1e-13);
+    CHECK(std::abs(lattice_excess<2>(make_kernel<2>(choice, 1.2, true), 1.2)) < 1e-13);
   }
 }

@@ -14,7 +14,7 @@ namespace {
 constexpr double crest = 200, width = 100, manning = 0.01;  // m, m, s/m^(1/3)
 
 test::ChannelFlow finite_volumes(const Scene& scene) {
-  const Series discharge = scene.boundaries.at(0).discharge;
+  const Series discharge = scene.boundaries.at(0).imposed.at(0).series;
   test::ChannelFlow flow({0, 300, 600, scene.gravity, manning, [&](double x) { return scene.bed.elevation(x, 50); },
                           [](double) { return 0.0; }, {}, [discharge](double t) { return discharge.at(t) / width; }});
   while (flow.time() < scene.end_time) flow.step(scene.end_time);

@@ -7,7 +7,6 @@ using namespace freshet;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 
 // Root mean square of the velocity's error per component.
 double vortex_error(const test::FlowRun& run) {

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "tests/support/run_case.hpp"
+#include "tests/support/scenes.hpp"
 
 using namespace freshet;
 
@@ -63,7 +64,7 @@ TEST_CASE("okushiri: still water stays still at the open boundary", "[okushiri]"
   // The bed slopes 1:20 at the line; an inner state taken as depth, not level, would draw in 7e-3 m/s.
   const Scene scene = test::read_case("okushiri");
   Scene still = scene;
-  still.boundaries[0].level = Series{{0, 1}, {0, 0}};
+  test::impose(still.boundaries[0], "level", Series{{0, 1}, {0, 0}});
   const auto method = make_method(still);
   for (double t = 0; t < 2;) {
     const double dt = method->stable_dt();

@@ -8,7 +8,6 @@
 
 using namespace freshet;
 using test::Flow;
-using Kind = OpenBoundary::Kind;
 
 namespace {
 
@@ -50,9 +49,9 @@ struct Setting {
 Flow channel_with_wave(const Setting& setting, int lengths) {
   Scene scene = channel(20 * lengths, setting.n * lengths);
   scene.sisph.smoothing = scene.sph.eta = setting.smoothing;
-  test::open_both(scene, Kind::wave, Kind::transmissive);
-  scene.boundaries[0].level = sampled_wave();
-  scene.boundaries[1].level = constant(1);
+  test::open_both(scene, IncomingWave{}, Transmissive{});
+  test::impose(scene.boundaries[0], "level", sampled_wave());
+  test::impose(scene.boundaries[1], "level", constant(1));
   return Flow(scene);
 }
 
@@ -150,9 +149,9 @@ TEST_CASE("sisph: a wave runs through a channel of disordered particles between 
   scene.sisph.theta = 0.5;
   scene.water.disorder = 0.2;
   scene.water.depth = [](double, double) { return 1.0; };
-  test::open_both(scene, Kind::wave, Kind::transmissive);
-  scene.boundaries[0].level = sampled_wave();
-  scene.boundaries[1].level = constant(1);
+  test::open_both(scene, IncomingWave{}, Transmissive{});
+  test::impose(scene.boundaries[0], "level", sampled_wave());
+  test::impose(scene.boundaries[1], "level", constant(1));
   Flow flow(scene);
   const double dt = 0.1 / std::sqrt(gravity), mass = flow.method->totals().mass;
   const auto x = flow.real("x"), depth = flow.real("depth"), v = flow.real("v");
@@ -183,9 +182,9 @@ TEST_CASE("sisph: uniform flow down a slope against friction", "[slow]") {
   scene.bed.elevation = [slope](double x, double) { return -slope * x; };
   scene.manning = Manning(n);
   scene.water.depth = [](double x, double) { return 1 + 0.3 * std::sin(0.1 * x); };
-  test::open_both(scene, Kind::discharge, Kind::elevation);
-  scene.boundaries[0].discharge = constant(speed);
-  scene.boundaries[1].level = constant(1 - slope * 200);
+  test::open_both(scene, ImposedDischarge{}, ImposedLevel{});
+  test::impose(scene.boundaries[0], "discharge", constant(speed));
+  test::impose(scene.boundaries[1], "level", constant(1 - slope * 200));
   Flow flow(scene);
   const double dt = courant * 2 / std::sqrt(gravity);
   while (flow.t < 6000) flow.step(dt);

@@ -3,7 +3,8 @@
 
 #include <cmath>
 
-#include "src/scene/names.hpp"
+#include "kernels/choice.hpp"
+#include "kernels/smoothing.hpp"
 #include "tests/support/run_case.hpp"
 
 using namespace freshet;
@@ -23,8 +24,9 @@ double error(Keys keys, int n) {
 
 TEST_CASE("sisph: every kernel converges, on particles at rest and moving", "[sisph][slow]") {
   // At l = 1.5 dx wider kernels smooth more: quintic and Gaussian (3 l) have a third more error than the cubic spline (2 l).
-  for (const auto& [kernel, name] : kernel_names())
+  for (const KernelChoice& choice : alternatives<KernelChoice>())
     for (const char* formulation : {"at-rest", "moving"}) {
+      const std::string kernel = name_of(choice);
       const Keys keys{"sisph.kernel=" + kernel, std::string("sisph.formulation=") + formulation, "water.disorder=0.2"};
       const double coarse = error(keys, 50), fine = error(keys, 100);
       CAPTURE(kernel, formulation, coarse, fine);

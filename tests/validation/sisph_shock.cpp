@@ -40,7 +40,7 @@ TEST_CASE("sisph: a dam break 1 : 0.2 in conservative form") {
     scene.method = "sisph";
     scene.sph.eta = scene.sisph.smoothing;
     scene.sisph.theta = 0.6;
-    scene.sisph.momentum = Sisph::Momentum::conservative;
+    scene.sisph.momentum = test::pick(sisph::momentum_forms(), "conservative");
     scene.water.depth = [](double x, double) { return x < 0 ? 1.0 : 0.2; };
     Flow flow(scene);
     const double dt = 0.5 * 2.0 / n / std::sqrt(gravity), momentum0 = flow.method->mechanics().momentum[0];

@@ -12,7 +12,7 @@ using test::Flow;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846, gravity = 9.81;  // m, m/s2; depth 1 m
+constexpr double gravity = 9.81;  // m, m/s2; depth 1 m
 
 struct Basin {
   Function mode;  // of the surface, 1 at its largest

@@ -10,7 +10,6 @@ using namespace freshet;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double radius = 3000, displacement = 1500, radial_amplitude = 0.5;  // m, m, 1: of the cases
 
 // Five periods, with the errors after the first as well.
