@@ -60,7 +60,7 @@ TEST_CASE("errors of boundaries say what to do") {
   CHECK_THAT(error("side = \"left\"\ntype = \"velocity\"\n"), Catch::Contains("'boundary.0.velocity' is missing"));
   CHECK_THAT(error("side = \"left\"\ntype = \"state\"\nvelocity = 1\n"), Catch::Contains("level") && Catch::Contains("depth"));
   CHECK_THAT(error("side = \"left\"\ntype = \"elevation\"\nlevel = 1\nvelocity = 1\n"),
-             Catch::Contains("unknown key 'boundary.0.velocity'"));
+             Catch::Contains("'boundary.0.velocity' belongs to 'velocity' or 'state'"));
   CHECK_THAT(error("side = \"left\"\ntype = \"discharge\"\ndischarge = { times = [0, 1], values = [1] }\n"),
              Catch::Contains("give one value for each time"));
   CHECK_THAT(error("side = \"left\"\ntype = \"discharge\"\ndischarge = { times = [0, 5, 5], values = [1, 2, 3] }\n"),
