@@ -1,8 +1,9 @@
-// What each kind of open boundary imposes: the exterior state (depth, inward velocity) from the water before the line and the
-// values imposed at a time (Vacondio 2010, (4.2)-(4.4); corrected and completed: SWE-FORMULAS section 9). Pure functions.
-// Throughout u is the velocity INTO the domain [m/s], c = sqrt(g d) the celerity, and R = -u + 2 c of the inner state the
-// invariant that leaves the domain. Each kind follows the local Froude number and the sign of u by itself:
-// what leaves supercritically is copied, and no more than critical flow passes where only one value is imposed.
+// What each kind of open boundary imposes: the exterior state (depth, inward velocity) from the water before
+// the line and the values imposed at a time (Vacondio 2010, (4.2)-(4.4), completed: docs/formulas/swe.md
+// (S36) to (S42)). Pure functions. Throughout u is the velocity INTO the domain [m/s], c = sqrt(g d) the
+// celerity, and R = -u + 2 c of the inner state the invariant that leaves the domain. Each kind follows the
+// local Froude number and the sign of u by itself: what leaves supercritically is copied, and no more than
+// critical flow passes where only one value is imposed.
 #pragma once
 #include <variant>
 

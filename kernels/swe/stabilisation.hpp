@@ -1,5 +1,6 @@
-// What a pair's pressures become under each stabilisation (SWE-FORMULAS section 6; thesis 2.5). One struct per choice (flops: what it adds to a pair, cellgrid/work.hpp); to
-// add one, write its struct, name it in the variant, in Stabilisation (src/scene/scene.hpp) and in the reader.
+// What a pair's pressures become under each stabilisation (thesis 2.7; docs/formulas/swe.md (S15) to (S20)).
+// One struct per choice (flops: what it adds to a pair, cellgrid/work.hpp); to add one, write its struct,
+// name it in the variant, in Stabilisation (src/scene/scene.hpp) and in the reader.
 #pragma once
 #include <variant>
 
