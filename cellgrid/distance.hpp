@@ -18,8 +18,9 @@ template <int W, int B>
 inline constexpr double least_square<pack<float, W, B>> = 1e-24;  // m2
 #endif
 
-// Whether the set has an estimate of 1/sqrt in double precision: 1/r first, r from it. Where not, a root and a quotient are as fast as a
-// series and leave more room for other work (docs/performance.md): r first, and taken ahead, as it takes twenty cycles.
+// Whether the set has an estimate of 1/sqrt in double precision: 1/r first, r from it. Where not, a root and a
+// quotient are as fast as a series and leave more room for other work (docs/log/performance.md): r first, and
+// taken ahead, as it takes twenty cycles.
 template <class V>
 inline constexpr bool estimates_rsqrt = std::is_same_v<V, double>;
 #ifndef FRESHET_DEVICE

@@ -15,8 +15,9 @@ constexpr int padding = 16;
 // Cache lines of a page: where in one a field begins decides which lines of a first-level cache it falls on.
 constexpr std::uintptr_t line = 64, lines = 64;
 
-// The cache line in its page at which particle 0 of the place-th field stands, each at another: large allocations all begin at the
-// same one, and a pair loop that reads eleven fields at one j then has room for eight (force 10 to 40 % slower, docs/performance.md).
+// The cache line in its page at which particle 0 of the place-th field stands, each at another: large
+// allocations all begin at the same one, and a pair loop that reads eleven fields at one j then has room for
+// eight (force 10 to 40 % slower, docs/log/performance.md).
 std::uintptr_t first_line(std::size_t place) { return 37 * place % lines; }
 template <class T>
 std::uintptr_t line_of(const Field<T>& field) {

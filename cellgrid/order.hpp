@@ -92,7 +92,7 @@ class RowOrder {
 
   const Rows& rows() const { return rows_; }
 
- public:  // device lambdas may not live in private members
+ public:
   int keep_blocks(const FieldSet& particles);
   void count_bins(const FieldSet& particles, int cells);
   void place(const FieldSet& particles, int cells);

@@ -1,5 +1,6 @@
-// The bed between its bottom particles: a tensor-product cubic B-spline through their (filtered) levels, so that b, grad b
-// and the curvature are consistent derivatives of one function (SWE-FORMULAS 3.4). Tabulated once; 4^D points per sample.
+// The bed between its bottom particles: a tensor-product cubic B-spline through their (filtered) levels, so
+// that b, grad b and the curvature are consistent derivatives of one function: docs/formulas/swe.md (S21),
+// (S22). Tabulated once; 4^D points per sample.
 #pragma once
 #include <array>
 #include <functional>

@@ -1,12 +1,13 @@
-// What each kind of open boundary imposes: the exterior state (depth, inward velocity) from the water before the line and the
-// values imposed at a time (Vacondio 2010, (4.2)-(4.4); corrected and completed: SWE-FORMULAS section 9). Pure functions.
-// Throughout u is the velocity INTO the domain [m/s], c = sqrt(g d) the celerity, and R = -u + 2 c of the inner state the
-// invariant that leaves the domain. Each kind follows the local Froude number and the sign of u by itself:
-// what leaves supercritically is copied, and no more than critical flow passes where only one value is imposed.
+// What each kind of open boundary imposes: the exterior state (depth, inward velocity) from the water before
+// the line and the values imposed at a time (Vacondio 2010, (4.2)-(4.4), completed: docs/formulas/swe.md
+// (S36) to (S42)). Pure functions. Throughout u is the velocity INTO the domain [m/s], c = sqrt(g d) the
+// celerity, and R = -u + 2 c of the inner state the invariant that leaves the domain. Each kind follows the
+// local Froude number and the sign of u by itself: what leaves supercritically is copied, and no more than
+// critical flow passes where only one value is imposed.
 //
-// To add a law, write its struct, name it in OpenLaw and write its operator() in open_laws.hpp. name and title are what a scene
-// says and what the program shows, keys(k) tells what a scene gives for it (kernels/choice.hpp), values that follow time first
-// in the order in which set() takes them [SI].
+// To add a law, write its struct, name it in OpenLaw and write its operator() in open_laws.hpp. name and title are
+// what a scene says and what the program shows, keys(k) tells what a scene gives for it (kernels/choice.hpp), values
+// that follow time first in the order in which set() takes them [SI].
 #pragma once
 #include <variant>
 

@@ -139,7 +139,8 @@ GeneralKernel<D> general_kernel(const KernelChoice& choice, double kappa = 1) {
 template <int D>
 using AnyKernel = std::variant<CubicSpline<D>, GeneralKernel<D>>;
 
-// With the lattice correction the norm is such that the sum over a lattice of spacing h/eta is one (SWE-FORMULAS 1.7).
+// With the lattice correction the norm is such that the sum over a lattice of spacing h/eta is one:
+// docs/formulas/swe.md (S6).
 template <int D>
 AnyKernel<D> make_kernel(const KernelChoice& choice, double eta, bool lattice_correction);
 

@@ -2,7 +2,8 @@
 // copy the state of the fluid particle i that looks at them, with the velocity mirrored, v_k = v_i - 2 P v_i: a wall term
 // depends on i and the geometry alone.
 //   vbp     x_k = x_i - 2 (x_i - x_w) for wall points x_w half a spacing apart, m_k = m_i (h0/h_i)^(D-1)   (thesis 1.2)
-//   mvbp    also x_k = x_i - 4 (x_i - x_w), and two points more at corners (thesis 1.3; corrected (1.8): SWE-FORMULAS 7)
+//   mvbp    also x_k = x_i - 4 (x_i - x_w), and two points more at corners (thesis 1.3; (1.8) corrected:
+//           docs/formulas/swe.md (S30))
 //   rows    fixed points on rows dx/2, 3 dx/2, ... behind the wall, m_k = rho_i x the area that a point stands for
 //   mirror  i's image in each straight piece of wall nearby sees i's real neighbours (the same as i seeing their images).
 //           Exact for straight walls and right corners whatever the particles' positions; wrong at corners of more than

@@ -1,6 +1,7 @@
-// The water's area, point by point: each corner of a point's cell without air is the centre of a triangle of points that belongs to
-// the water, of which the point owns the part towards itself. The parts of all points make up those triangles, walls included, also
-// where four points share a circle.
+// The water's area, point by point (docs/formulas/fpm.md (F26)): each corner of a point's cell without air is
+// the centre of a triangle of points that belongs to the water, of which the point owns the part towards
+// itself. The parts of all points make up those triangles, walls included, also where four points share a
+// circle.
 #pragma once
 #include "kernels/fpm/voronoi.hpp"
 

@@ -1,5 +1,6 @@
-// Poisson's equation on scattered points (thesis 5.14-5.19, with scaled equations): at each point the fitted polynomial obeys, beside its
-// neighbours' values, lap psi = f and on walls n . grad psi = g, each with weight 100:
+// Poisson's equation on scattered points (docs/formulas/fpm.md (F9) to (F12)): at each point the fitted
+// polynomial obeys, beside its neighbours' values, lap psi = f and on walls n . grad psi = g, each with
+// weight 100:
 //   G = sum w m m^T + 100 r_p r_p^T + 100 r_b r_b^T,  G beta = e1,  r_p = [0, 0, 0, 1, 0, 1],  r_b = [0, nx, ny, 0, 0, 0]
 //   psi_i - sum_j w_j (m_j . beta) psi_j = 100 (r_p . beta) h^2 f + 100 (r_b . beta) h g
 // Where psi is given the row is psi_i = that. Without any such point constants are free: the system is A + 1 1^T / n, which has the

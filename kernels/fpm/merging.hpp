@@ -1,4 +1,5 @@
-// What becomes of two points that are each other's nearest and too close (thesis 5.20, with the rules for kinds that it needs).
+// What becomes of two points that are each other's nearest and too close (docs/formulas/fpm.md (F27), with
+// the rules for kinds that it needs).
 #pragma once
 #include "kernels/fpm/tank.hpp"
 

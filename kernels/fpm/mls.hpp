@@ -1,6 +1,7 @@
-// Moving least squares over the neighbours of a place (thesis 5.3.1, in the scaled form): basis m = [1, X, Y, X^2/2, XY, Y^2/2], X = x / h
-// (1-D: 3 terms, 3-D: 10), weight exp(-7 R^2) for R = r / h < 1 (printed: 6.25). With G = sum w m m^T a linear functional of the fitted polynomial is
-// sum_j w_j (m_j . beta) f_j, G beta = the functional's values on the basis: beta are its factors. Values V: double or pack.
+// Moving least squares over the neighbours of a place (docs/formulas/fpm.md (F4) to (F7)): basis m = [1, X,
+// Y, X^2/2, XY, Y^2/2], X = x / h (1-D: 3 terms, 3-D: 10), weight exp(-7 R^2) for R = r / h < 1 (printed:
+// 6.25). With G = sum w m m^T a linear functional of the fitted polynomial is sum_j w_j (m_j . beta) f_j, G
+// beta = the functional's values on the basis: beta are its factors. Values V: double or pack.
 #pragma once
 #include <type_traits>
 

@@ -1,6 +1,7 @@
-// Keeps the points of an incompressible flow well spread (thesis 5.3.3, corrected): holds them to their walls, merges what is
-// too close, fills holes, edges and gaps, and gives new points their fields by MLS. Every decision is a function of positions,
-// kinds and ids, taken by each point for itself: results do not depend on threads.
+// Keeps the points of an incompressible flow well spread (docs/formulas/fpm.md (F27) to (F30)): holds them to
+// their walls, merges what is too close, fills holes, edges and gaps, and gives new points their fields by
+// MLS. Every decision is a function of positions, kinds and ids, taken by each point for itself: results do
+// not depend on threads.
 #pragma once
 #include <array>
 #include <string>
@@ -55,7 +56,7 @@ class Points {
   Cloud cloud(const FieldSet& points, const RowOrder& order) const;
   const PointRule& rule() const { return rule_; }
 
- public:  // device lambdas may not live in private members
+ public:
   int hold_to_walls(FieldSet& points);
   void choose_partners(const Cloud& cloud, const Field<int>& surface, const Field<int>& side, int n);
   PointCount decide(const Cloud& cloud, const Field<int>& surface, const Field<int>& side, int n);

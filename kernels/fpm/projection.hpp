@@ -1,6 +1,6 @@
-// One incompressible step after the points have moved (thesis 5.1-5.8, corrected): second-order backward differences along the paths,
-// pressure by projection. With r = dt / dt before (0 in the first step), c0 = (1 + r)^2 / (1 + 2 r), c1 = -r^2 / (1 + 2 r),
-// tau = dt (1 + r) / (1 + 2 r):
+// One incompressible step after the points have moved (docs/formulas/fpm.md (F13) to (F20)): second-order
+// backward differences along the paths, pressure by projection. With r = dt / dt before (0 in the first
+// step), c0 = (1 + r)^2 / (1 + 2 r), c1 = -r^2 / (1 + 2 r), tau = dt (1 + r) / (1 + 2 r):
 //   q = fitted p, 0 on the surface;  v* = c0 v + c1 v_old + tau (-grad q / rho + nu lap v + f)
 //   lap phi = rho (div v* - expansion) / tau;  walls: n . grad phi = rho n . v* / tau;  surface: phi = -q
 //   v = v* - tau grad phi / rho, at walls held;  p = q + phi;  filtered: v next to walls and surface towards its fit
@@ -83,7 +83,7 @@ class Projection {
 
   const Stencils<2>& stencils() const { return stencils_; }
 
- public:  // device lambdas may not live in private members
+ public:
   void find_rows(const Neighbourhood<2>& around, const Flow& flow);
   void guess_pressure(const Flow& flow);
   void predict(const Flow& flow, const Backward& time);

@@ -1,9 +1,11 @@
-// Normal equations of quadratic fits in a plane, solved so that what the neighbours hardly determine stays small. In layers of two rows of
-// points second derivatives across are as good as free: a gradient there may take any share of them, and a projection with such gradients
-// multiplies errors by 1e3 to 1e5 in a step. The unknowns are turned to the principal axes of the neighbours' spread, the long one first,
-// and second derivatives whose pivots are below 0.03 of their diagonal entries (0.042 where neighbours lie in a band) are drawn towards zero,
-// the more the lower these are. Clouds off jets hardly have such (jitter 0.3 dx: least 0.06 inside and on straight edges); in two ragged
-// rows a step multiplies errors by up to 1.2 then (3.8 with pivots of at least 0.01).
+// Normal equations of quadratic fits in a plane (docs/formulas/fpm.md (F8)), solved so that what the
+// neighbours hardly determine stays small. In layers of two rows of points second derivatives across are as
+// good as free: a gradient there may take any share of them, and a projection with such gradients multiplies
+// errors by 1e3 to 1e5 in a step. The unknowns are turned to the principal axes of the neighbours' spread,
+// the long one first, and second derivatives whose pivots are below 0.03 of their diagonal entries (0.042
+// where neighbours lie in a band) are drawn towards zero, the more the lower these are. Clouds off jets
+// hardly have such (jitter 0.3 dx: least 0.06 inside and on straight edges); in two ragged rows a step
+// multiplies errors by up to 1.2 then (3.8 with pivots of at least 0.01).
 #pragma once
 #include "kernels/small_dense.hpp"
 

@@ -1,7 +1,8 @@
-// Water too thin for its pressure to be known: points with fewer than two inner points (a row of the pressure equation without a wall or
-// surface) within 0.75 of their support, as in films of two rows, threads and shreds. A step may turn their velocities, but not make them faster
-// than they and the points around were before it, in flight or not (by Bernoulli a free surface keeps its speed): else ragged shreds throw
-// single points at several times their speed.
+// Water too thin for its pressure to be known (docs/formulas/fpm.md (F24)): points with fewer than two inner
+// points (a row of the pressure equation without a wall or surface) within 0.75 of their support, as in films
+// of two rows, threads and shreds. A step may turn their velocities, but not make them faster than they and
+// the points around were before it, in flight or not (by Bernoulli a free surface keeps its speed): else
+// ragged shreds throw single points at several times their speed.
 #pragma once
 #include "kernels/fpm/projection.hpp"
 

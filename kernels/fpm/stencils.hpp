@@ -1,6 +1,7 @@
-// Derivatives by moving least squares at every point (thesis 5.9-5.13): the factors of gradient, Laplacian and fitted value are found once
-// per step and reused by all operators. Derivatives act on differences to the point's own value; the fitted value counts the point
-// itself with weight 1. The moments are kept for the rows of the pressure. Reads x, h; writes factors [1/m, 1/m2, 1], moments [1].
+// Derivatives by moving least squares at every point (docs/formulas/fpm.md (F7)): the factors of gradient,
+// Laplacian and fitted value are found once per step and reused by all operators. Derivatives act on
+// differences to the point's own value; the fitted value counts the point itself with weight 1. The moments
+// are kept for the rows of the pressure. Reads x, h; writes factors [1/m, 1/m2, 1], moments [1].
 #pragma once
 #include "cellgrid/sums.hpp"
 #include "kernels/fpm/neighbours.hpp"

@@ -1,4 +1,5 @@
-// Viscosity taken implicitly: (1 - k lap) v* = b with k = nu tau [m2], both components at once, so that nu does not limit the step.
+// Viscosity taken implicitly (docs/formulas/fpm.md (F22)): (1 - k lap) v* = b with k = nu tau [m2], both
+// components at once, so that nu does not limit the step.
 //   fluid                v_i - k sum_j l_ij (v_j - v_i) = b_i with the stencils' Laplacian, divided by 1 + k sum_j l_ij
 //   free surface         the fitted polynomial obeys the equation and n . grad v = 0, each with weight 100 (elliptic.hpp); n: into the water
 //   walls that slip      the same along the wall; n . v* = n . b
@@ -27,7 +28,7 @@ class ImplicitViscosity {
   linear::BiCgStabReport solve(const StencilView<2>& stencils, const ViscousPlaces& places, double k, const VecField<double, 2>& v,
                                const VecField<double, 2>& start);
 
- public:  // device lambdas may not live in private members
+ public:
   void assemble(const StencilView<2>& stencils, double k);
   void set_right_side(const VecField<double, 2>& v, const VecField<double, 2>& start);
   void multiply(const Field<double>& x, const Field<double>& y) const;

@@ -1,4 +1,4 @@
-// Local Voronoi cells (thesis 5.3.3 and 5.3.5 without a global triangulation): which points lie on the free surface, and
+// Local Voronoi cells (docs/formulas/fpm.md (F25), (F28)): which points lie on the free surface, and
 // where points are missing. A point is on the surface iff its cell, cut by the walls, has a corner at `surface` or farther:
 // then a circle of that radius through it is empty. Cells closer than that are exact; each point costs about a microsecond.
 // Water that comes near other water has air between: an empty circle that was air stays so down to the radius `closed`, told

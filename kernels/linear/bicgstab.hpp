@@ -65,7 +65,6 @@ class BiCgStab {
     return report;
   }
 
-  // Extended lambdas must not be in private functions on devices.
   double restart(int n, double rr) {
     const Vector r = r_, r0 = r0_;
     launch("bicgstab::restart", Range(0, n), KOKKOS_LAMBDA(int i) { r0(i) = r(i); });

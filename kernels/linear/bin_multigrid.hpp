@@ -37,7 +37,7 @@ class BinMultigrid {
 
   int levels() const { return depth_; }
 
- public:  // device lambdas may not live in private members
+ public:
   void find_clusters();
   void number_bins(BinLevel& level);
   void sum_points(BinLevel& level);

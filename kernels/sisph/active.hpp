@@ -15,7 +15,7 @@ class ActiveSlices {
   bool drying() const { return dry_ > 0; }  // some particle is dry
   long dry() const { return dry_; }
 
- public:  // device lambdas may not live in private members
+ public:
   void number_slices();
 
  private:

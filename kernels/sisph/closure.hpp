@@ -1,4 +1,5 @@
-// The closure of the pair areas: the smallest weighted change that gives every free particle sum_j A_ij n_ij = 0,
+// The closure of the pair areas (docs/formulas/sisph.md (I6)): the smallest weighted change that gives every
+// free particle sum_j A_ij n_ij = 0,
 //   A_ij <- A_ij (1 - (lambda_j - lambda_i) . n_ij),
 //   sum_j A_ij n_ij n_ij . (lambda_i - lambda_j) = -sum_j A_ij n_ij          (a spring network; lambda = 0 at held particles)
 // A stays symmetric. On a lattice nothing changes. Without it a mean flow over disordered particles has an O(1) error.

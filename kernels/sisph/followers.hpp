@@ -26,7 +26,7 @@ class Followers {
   // Each has what its leader has.
   void follow(const VecField<double, D>& v) const;
 
- public:  // device lambdas may not live in private members
+ public:
   Field<int> leaders(int particles, const Start& start) const;  // id of each particle's, by id; -1: it follows none
   void list(int particles, const Field<int>& leader);
 

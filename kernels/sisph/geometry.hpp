@@ -3,7 +3,7 @@
 //   S_i = sum_j omega_j G_ij d_ij n_ij n_ij^T, s_i = tr S_i / D;  (grad f)_i = S_i^-1 sum_j omega_j G_ij (f_j - f_i) n_ij
 //   A_ij = 2 omega_i omega_j G_ij (1/s_i + 1/s_j) / 2, then closed: sum_j A_ij n_ij = 0 (closure.hpp).
 // n_ij points from i to j; A_ij = A_ji and n_ij = -n_ji to the bit. Held particles (a rim that keeps its state) have the
-// values of a lattice. Source: Krongauz and Belytschko's gradient; Bankole 2016, ch. 4-5, normalised and closed.
+// values of a lattice. Source: docs/formulas/sisph.md (I2) to (I6).
 #pragma once
 #include "cellgrid/pairs.hpp"
 #include "cellgrid/sums.hpp"

@@ -1,4 +1,4 @@
-// Gradients over the stored pairs, exact for linear fields (Krongauz and Belytschko).
+// Gradients over the stored pairs, exact for linear fields (docs/formulas/sisph.md (I4), (I24)).
 #pragma once
 #include "kernels/sisph/surface.hpp"
 

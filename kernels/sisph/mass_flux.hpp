@@ -1,4 +1,5 @@
-// Momentum carried by the mass fluxes (wet and dry alike), convex in the velocities where no slope is taken:
+// Momentum carried by the mass fluxes (docs/formulas/sisph.md (I16), (I17), (I21), (I22)), convex in the
+// velocities where no slope is taken:
 //   (m' + ...) v*_i = keep_i v_i + dt sum_in |F_ij| v_f - dt sum_out F_ij (v_f - v_i),  keep_i = max(0, m_i^{n+1} - dt sum_in |F_ij|)
 // v_f: the donor's velocity, carried to the face by its limited gradient (van Leer), and by less of it where more than half of its
 // water leaves: what stays would else be thrown about.

@@ -1,5 +1,6 @@
-// SISPH formulation L: particles of constant mass m that move with the water, omega = m / H; wet everywhere. One step of theta with
-// the geometry at its middle, in Picard passes (H_m: mean of H^n and H^{n+1}, omega_m = m / H_m, eta_th = eta^n + theta d eta):
+// SISPH formulation L (docs/formulas/sisph.md (I32) to (I35)): particles of constant mass m that move with
+// the water, omega = m / H; wet everywhere. One step of theta with the geometry at its middle, in Picard
+// passes (H_m: mean of H^n and H^{n+1}, omega_m = m / H_m, eta_th = eta^n + theta d eta):
 //   v_th = (1 - theta) v^n + theta v^{n+1},   v^{n+1} = (v^n - g dt grad eta_th) / (1 + gamma)
 //   (m_i / H_m^2) d eta_i = -dt omega_m div v_th + sum_j (a_ij / theta) [eta_j - eta_i - d_ij n_ij.(grad eta_i + grad eta_j) / 2]_th
 //                           + (m_i / H_m^2) rise_i,         a_ij = g theta^2 dt^2 A_ij / d_ij / (1 + gamma_ij)
@@ -76,7 +77,7 @@ class MovingWater {
   // Takes the step that was tried last: x, v, depth and bed are written, in the order that they are in.
   void arrive(const Swarm<D>& now, const BedSpline<D>* bed, const PathWeights& path, double dt);
 
- public:  // device lambdas may not live in private members
+ public:
   void list_pairs(const Swarm<D>& now, double skin);
   void visit_all(int slices);
   void start(const Swarm<D>& now);

@@ -1,4 +1,5 @@
-// Open boundaries: particles behind the line (the rim) hold a state that is found anew each step, at their own place:
+// Open boundaries (docs/formulas/sisph.md (I28) to (I31)): particles behind the line (the rim) hold a state
+// that is found anew each step, at their own place:
 //   R = v.n + 2 c of the characteristic that leaves, traced back from the rim particle (any Courant number),
 //   plus the bed's slope and the friction on its way, (v.n + dt g S0.n) / (1 + dt gamma) in the velocity part;
 //   depth and velocity from R and the law of the boundary at time t + s / c, s the distance behind the line; an imposed level falls
@@ -59,7 +60,7 @@ class OpenRim {
   std::vector<double> means() const { return laws_.means(); }
   void set_means(const std::vector<double>& means) { laws_.set_means(means); }
 
-  // Part of the above: kernels must not be in private functions.
+  // Part of find().
   void turn_velocities();
 
  private:

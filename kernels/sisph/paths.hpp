@@ -1,5 +1,5 @@
 // Paths of particles whose velocities are known at the ends of a step: places as weighted sums of velocities (Bankole 2016,
-// (5.51)-(5.59), L(r) the particle's own velocity):
+// (5.51)-(5.59), L(r) the particle's own velocity; docs/formulas/sisph.md (I36)):
 //   x^{n+1} = x^n + dt (before v^{n-1} + start v^n + end v^{n+1}),   x^{n+1/2} = x^n + dt/2 (half_start v^n + half_end v^{n+1})
 // The middle is where the geometry of the step is taken.
 #pragma once

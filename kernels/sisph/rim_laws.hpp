@@ -33,7 +33,7 @@ class RimLaws {
   std::vector<double> means() const;
   void set_means(const std::vector<double>& means);
 
- public:  // device lambdas may not live in private members
+ public:
   void share(int opening, bool by_width, const Field<double>& foot_depth) const;
 
  private:

@@ -1,4 +1,5 @@
-// Velocity carried along particle paths between particles at rest (fully wet, smooth flow):
+// Velocity carried along particle paths between particles at rest (fully wet, smooth flow;
+// docs/formulas/sisph.md (I18), (I20)):
 //   x_d = x_i - dt/2 (v_i^{n+1} + P[v^n](x_d)),  Fu_i = P[u](x_d),  u = v^n - (1 - theta) g dt grad eta^n
 // P: quadratic polynomial that passes through the particle nearest to the place and fits its neighbours by weighted least
 // squares; fitted once per step. Exact for quadratic fields. P[u] is lifted by a share of what its neighbours stand off it in the mean, times

@@ -1,4 +1,4 @@
-// The free surface of one Picard pass (SISPH formulation E, sections 3 and 5 of the method's notes):
+// The free surface of one Picard pass of particles at rest, docs/formulas/sisph.md (I8) to (I16):
 //   V(eta_i) + sum_j a_ij (eta_i - eta_j) = b_i,   V(eta) = omega max(0, eta - bed)                       (Casulli 2009)
 //   a_ij = g theta^2 dt^2 A_ij H_ij / d_ij,  f_ij = A_ij H_ij v_ij . n_ij,  b_i = omega H_i^n - dt sum_j f_ij
 // where some f may be cut so that no particle gives more than it has (b >= 0); solved for increments by Newton's method, all
@@ -71,7 +71,7 @@ class FreeSurface {
   // before: velocity before the pressure at n+1. drying: some particle may be dry.
   SurfaceReport solve(const SliceList& active, const Water<D>& water, const VecField<double, D>& before, double dt, bool drying);
 
-  // Parts of solve() and of the constructor; public since device lambdas may not live in private members.
+  // Parts of solve() and of the constructor.
   void level_rows(const SliceList& active, const Water<D>& water);
   void set_mesh(const SliceList& active, const Water<D>& water, double stiffness);
   void set_diagonal(const SliceList& active, const Water<D>& water, bool all_wet);

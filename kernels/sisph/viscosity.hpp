@@ -1,9 +1,9 @@
-// Lateral viscosity (Bankole 2016, equations 3.27 and 3.28: (nu H u_x)_x + (nu H u_y)_y beside the bed's friction), implicit:
+// Lateral viscosity (docs/formulas/sisph.md (I27)), implicit:
 //   (m_i (1 + dt gamma_i) + dt sum_j c_ij) d_i - dt sum_j c_ij d_j = dt sum_j c_ij (u_j - u_i),   c_ij = nu A_ij H_ij / d_ij, m = omega H
 // u: where pressure and friction alone would take the velocities, so that what they balance stays to round-off; d: what viscosity
 // changes it by. Symmetric and positive: any step; by CG with Jacobi. The pairs give momentum to each other alone.
-// An image behind a wall that slips has the velocity R u_j; behind one that holds the water -u_j (equation 5.47, its sign mended). Mass
-// fluxes have R u_j in either case: nothing passes.
+// An image behind a wall that slips has the velocity R u_j; behind one that holds the water -u_j
+// (docs/formulas/sisph.md (I7)). Mass fluxes have R u_j in either case: nothing passes.
 #pragma once
 #include "kernels/linear/cg.hpp"
 #include "kernels/sisph/surface.hpp"

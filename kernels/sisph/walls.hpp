@@ -1,7 +1,8 @@
-// Walls by mirror pairs: every pair (i, j) near a wall, i = j included, has a second one (i, image of j), the image in the plane
-// that touches the wall at the point nearest to the middle of i and j. The middle is the same for (j, i), so |x_i - x_j'| =
-// |x_j - x_i'|: coefficients stay symmetric and fluxes antisymmetric, mass is kept to round-off. Walls with right-angled corners
-// (the water inside) also have the image through the corner. Pairs that a wall separates are none.
+// Walls by mirror pairs (docs/formulas/sisph.md (I7)): every pair (i, j) near a wall, i = j included, has a
+// second one (i, image of j), the image in the plane that touches the wall at the point nearest to the middle
+// of i and j. The middle is the same for (j, i), so |x_i - x_j'| = |x_j - x_i'|: coefficients stay symmetric
+// and fluxes antisymmetric, mass is kept to round-off. Walls with right-angled corners (the water inside)
+// also have the image through the corner. Pairs that a wall separates are none.
 #pragma once
 #include <array>
 #include <functional>

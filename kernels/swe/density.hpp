@@ -1,5 +1,5 @@
-// Density by the variable-h summation (Vacondio 2010, (2.4)-(2.12); errata: SWE-FORMULAS section 1) fused with alpha (2.32),
-// d rho/dt (2.34) and the least-squares gradient of v.
+// Density by the variable-h summation (Vacondio 2010, (2.4)-(2.12)) fused with alpha (2.32), d rho/dt (2.34)
+// and the least-squares gradient of v: docs/formulas/swe.md (S7) to (S14).
 #pragma once
 #include "kernels/swe/particles.hpp"
 #include "kernels/walls.hpp"

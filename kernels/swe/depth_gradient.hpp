@@ -1,4 +1,5 @@
-// grad rho by least squares over the neighbours, for stabilisations that reconstruct the depth (SWE-FORMULAS section 6).
+// grad rho by least squares over the neighbours, for stabilisations that reconstruct the depth:
+// docs/formulas/swe.md (S14).
 #pragma once
 #include "kernels/swe/particles.hpp"
 

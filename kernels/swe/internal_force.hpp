@@ -1,4 +1,4 @@
-// Pressure force of the variational SPH-SWE scheme with stabilisation (SWE-FORMULAS 2.1 and 6, for (2.21), (2.52)):
+// Pressure force of the variational SPH-SWE scheme with stabilisation, docs/formulas/swe.md (S15):
 // t_i = sum_j m_j { [g/(2 alpha_i) + Pi/2] G_ij(h_i) + [g/(2 alpha_j) + Pi/2] G_ij(h_j) }, G = W' x_ij / r, rho_w = 1.
 #pragma once
 #include "kernels/swe/particles.hpp"

@@ -1,5 +1,6 @@
-// What the density summation makes of a regular lattice: off by the kernel's lattice bias (1e-4 to 2e-3, SWE-FORMULAS 1.7).
-// Particles whose state is imposed carry it too, else still water would be pushed where they meet.
+// What the density summation makes of a regular lattice: off by the kernel's lattice bias, 1e-4 to 2e-3
+// (docs/formulas/swe.md (S6)). Particles whose state is imposed carry it too, else still water would be
+// pushed where they meet.
 #pragma once
 #include <cmath>
 

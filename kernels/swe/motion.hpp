@@ -1,5 +1,5 @@
 // The O(N) passes of a step: kick and drift, and acceleration with bed, friction and the second kick
-// (KDK leap-frog with variable dt, SWE-FORMULAS section 5).
+// (KDK leap-frog with variable dt): docs/formulas/swe.md (S13), (S23) to (S29).
 #pragma once
 #include <optional>
 

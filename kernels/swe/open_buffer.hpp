@@ -69,7 +69,7 @@ class OpenBuffer {
   // Volume of the footprints' parts across the line: boundary particles' inside minus fluid's outside [m3].
   double straddling(const Particles<D>& p, const Field<int>& kind, int n) const;
 
- public:  // device lambdas may not live in private members
+ public:
   // A row's part of the buffer [m outside the line]: no wider than the sides of the buffer allow.
   struct Extent {
     double from = 0, to = 0;

@@ -48,7 +48,7 @@ class OpenSection {
   OpenFlux flux() const;
   void restore(const std::vector<OpenRow>& rows, const OpenFlux& flux);
 
- public:  // device lambdas may not live in private members
+ public:
   void fill_gaps() const;
   void account(const OpenLaw& law, double dt) const;
 

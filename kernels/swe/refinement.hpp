@@ -1,5 +1,6 @@
-// Particles that cover too much area split, those that cover too little merge (Vacondio 2010, ch. 3; errata: SWE-FORMULAS
-// section 8). A = m / rho (3.1) against a limit that may depend on the place. Mass, momentum and centre of mass are kept.
+// Particles that cover too much area split, those that cover too little merge (Vacondio 2010, ch. 3,
+// corrected: docs/formulas/swe.md (S46) to (S49)). A = m / rho (3.1) against a limit that may depend on the
+// place. Mass, momentum and centre of mass are kept.
 #pragma once
 #include <functional>
 #include <optional>
@@ -68,7 +69,7 @@ class Refinement {
   // Merges the pairs of which each is the other's nearest; returns how many. The second of a pair gets the id -1.
   int merge(const Particles<D>& p, int n, const Field<int>& kind, const ClusterSet& clusters, const NeighbourView& near);
 
- public:  // device lambdas may not live in private members
+ public:
   void lay_pattern();
   void rank_parents(const Field<int>& id, int parents);
   void place_daughters(const Particles<D>& p, int parents, int first, int first_id, const WallView<D>& walls) const;

@@ -1,7 +1,7 @@
-// What a pair's pressures become under each stabilisation (SWE-FORMULAS section 6; thesis 2.5). To add one, write its struct and
-// name it in the variant: name and title are what a scene says and what the program shows, keys(k) the keys of its own
-// (kernels/choice.hpp), flops what it adds to a pair (cellgrid/work.hpp). Of those with the same name the first that fits
-// the key 'muscl' is taken.
+// What a pair's pressures become under each stabilisation (thesis 2.7; docs/formulas/swe.md (S15) to (S20)).
+// To add one, write its struct and name it in the variant: name and title are what a scene says and what the program
+// shows, keys(k) the keys of its own (kernels/choice.hpp), flops what it adds to a pair (cellgrid/work.hpp). Of those
+// with the same name the first that fits the key 'muscl' is taken.
 #pragma once
 #include <variant>
 

@@ -1,6 +1,7 @@
-// Keeps the water's area where geometry changes it: gaps that close hold no air (the equations know none), films and threads of one row
-// count for nothing. What is more than `band` off the start's is given back evenly over `steps` steps as a divergence of the velocity, and
-// said in the summary. Below the band nothing is touched. Reads areas [m2] and time steps [s].
+// Keeps the water's area where geometry changes it (docs/formulas/fpm.md (F31)): gaps that close hold no air
+// (the equations know none), films and threads of one row count for nothing. What is more than `band` off the
+// start's is given back evenly over `steps` steps as a divergence of the velocity, and said in the summary.
+// Below the band nothing is touched. Reads areas [m2] and time steps [s].
 #pragma once
 #include <string>
 #include <vector>

@@ -64,7 +64,8 @@ void Solver::size_supports() {
   if (scene_.fpm->by_neighbours) fit_supports(management_.cloud(points_, order_), points_.size(), points_.real("h"), rule);
 }
 
-// (5.24)-(5.26): a point moves by a part of its support, viscosity spreads over one, and from rest.
+// docs/formulas/fpm.md (F32): a point moves by a part of its support, viscosity spreads over one, and from
+// rest.
 double Solver::stable_dt() const {
   const double h = scene_.fpm->support * scene_.water.spacing, speed = fastest(bind());
   const double force = std::hypot(scene_.fpm->force[0], scene_.fpm->force[1]);

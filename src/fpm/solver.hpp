@@ -62,7 +62,7 @@ class Solver : public Method {
   double last_dt_ = 0;  // s, 0 before the first step
   int next_id_ = 0;
 
- public:  // device lambdas may not live in private members
+ public:
   void place();
   Field<double> cell_areas() const;  // m2, of each point
   void seat_on_walls();

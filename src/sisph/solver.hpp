@@ -77,7 +77,7 @@ class Solver : public Method {
   void find_push(double theta, bool drying);
   void extend_slope(const Field<double>& depth);
 
- public:  // device lambdas may not live in private members
+ public:
   void build_geometry();
   void find_friction(double dt);
   void slow_down(const VecField<double, D>& v);

@@ -37,7 +37,7 @@ class Solver : public Method {
   ScalarState scalars() const override;
   void restore(const ScalarState& scalars) override;
 
- public:  // device lambdas may not live in private members
+ public:
   void fill_boundaries();
   void place_particles();
 

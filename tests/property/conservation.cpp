@@ -94,7 +94,8 @@ TEST_CASE("conservation: the energy of an inviscid slosh, to the second order of
   const double stable = Flow(slosh()).method->stable_dt();
   const double dt = 2 / std::ceil(2 / stable);
   const double coarse = energy_error(dt), fine = energy_error(dt / 2), finer = energy_error(dt / 4);
-  CHECK(coarse < 5e-3);  // the sheet, section 5: 3e-4 at CFL 0.4 in 1-D; here shoreline particles pass the bounds of h
+  // 3e-4 without a shoreline; here particles pass the bounds of h (docs/formulas/swe.md (S10)).
+  CHECK(coarse < 5e-3);
   CHECK(coarse / fine == Approx(4).margin(0.8));
   CHECK(fine / finer == Approx(4).margin(0.8));
 }
@@ -159,8 +160,8 @@ TEST_CASE("conservation: a lake at rest in a walled basin stays nearly at rest")
   CHECK(restlessness(lake(2, 0.1)) < 1e-2);  // Vacondio 2010, 1.4: below 0.01
   Scene scene = lake(2, 0);
   scene.sph.walls = WallKind::mvbp;
-  // These walls lack the image of the second row, which is drawn to the wall by 0.03 to 0.4 g d/dx (SWE-FORMULAS 7) over
-  // half a spacing: 0.2 to 0.45 sqrt(g d) but for the dissipation.
+  // These walls (docs/formulas/swe.md (S30)) lack the image of the second row, which is drawn to the wall by
+  // 0.03 to 0.4 g d/dx over half a spacing: 0.2 to 0.45 sqrt(g d) but for the dissipation.
   CHECK(restlessness(scene) < 0.2);
 }
 

@@ -102,7 +102,8 @@ TEST_CASE("fpm points: eddies for ten turn-overs") {
   INFO(ride.story());
   CHECK(ride.most_surface == 0);  // no void as large as a circle of 1.3 dx, at any time
   CHECK(ride.failed == 0);
-  // 400 at the start. FPM-FORMULAS section 6: -5..8 % at R > 0.9; a tenth and a half is the bound of a set that does not drift.
+  // 400 at the start. Holes from R > 0.9 dx on (docs/formulas/fpm.md (F28)) hold the number within a tenth;
+  // one and a half is the bound of a set that does not drift.
   CHECK(ride.fewest > 340);
   CHECK(ride.most < 460);
 }

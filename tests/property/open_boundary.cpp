@@ -131,12 +131,13 @@ TEST_CASE("open boundary: a wave comes in with its own height") {
   CHECK(in_phase == Approx(amplitude).epsilon(0.05));  // the scheme's dissipation over 0.4 wavelengths is below 1 %
   // The inner state is a mean over 2h = 0.24 m of fluid: the answer to it may be late by 0.08 s on both ways, 0.2 rad.
   CHECK(std::abs(beside) < 0.2 * amplitude);
-  CHECK(mean == Approx(1).margin(2e-3));  // the bias of the kernel sum at the seam: 0.1 to 0.2 % (section 1.7)
+  // The bias of the kernel sum at the seam: 0.1 to 0.2 % (docs/formulas/swe.md (S6)).
+  CHECK(mean == Approx(1).margin(2e-3));
 }
 
 TEST_CASE("open boundary: the raised level of a bore makes its speed") {
-  // Still water 1 m deep; SWE-FORMULAS section 9: u = 0.3 m/s and a bore of 1.0980 m belong together; the simple wave of
-  // the formula gives 0.2998 m/s at 1.098 m.
+  // Still water 1 m deep: u = 0.3 m/s and a bore of 1.0980 m belong together; the simple wave of
+  // docs/formulas/swe.md (S37) gives 0.2998 m/s at 1.098 m.
   Flow flow(channel(1, ImposedLevel{}, {{0, 0.05}, {1, 1.098}}));
   flow.run(6);  // the bore is at 20 m
   const Profile p = profile(flow);

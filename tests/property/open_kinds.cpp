@@ -62,7 +62,8 @@ TEST_CASE("open kinds: uniform flow stays uniform", "[slow]") {
   Flow flow(uniform(dimension, set));
   const double initial = flow.method->totals().mass;
   flow.run(30);  // the water is exchanged once
-  // SWE-FORMULAS section 9 found |u - 0.3| < 0.003 and 0.3 % of depth in 1-D at eta 1.2.
+  // What the lattice's bias leaves at eta 1.2 in 1-D (docs/formulas/swe.md (S6)): 0.003 m/s, and 0.3 % of
+  // depth.
   const Spread u = of_fluid(flow, "u"), depth = of_fluid(flow, "depth");
   CHECK(u.lowest > 0.297);
   CHECK(u.highest < 0.303);
@@ -73,7 +74,7 @@ TEST_CASE("open kinds: uniform flow stays uniform", "[slow]") {
 }
 
 TEST_CASE("open kinds: an imposed velocity or discharge drives the exact bore") {
-  // Into still water 1 m deep: u = 0.3 m/s and 1.0980 m behind the bore (SWE-FORMULAS section 9, "Check").
+  // Into still water 1 m deep: u = 0.3 m/s and 1.0980 m behind the bore, by its jump relations.
   const OpenLaw law = GENERATE(as<OpenLaw>{}, ImposedVelocity{}, ImposedDischarge{});
   const int dimension = GENERATE(1, 2);
   CAPTURE(name_of(law), dimension);

@@ -108,7 +108,8 @@ TEST_CASE("rasters: a uniform depth and velocity come back to the last cell at t
       const bool corner = std::min(grid.x(i), 1.2 - grid.x(i)) < 0.07 && std::min(grid.y(j), 0.8 - grid.y(j)) < 0.07;
       if (!corner) CHECK((sums.cover(k) >= edge_cover) == inside);
       if (sums.cover(k) < edge_cover) continue;
-      // The density of the lattice is 2.4e-4 low (SWE-FORMULAS 1.7), images at the walls make it so there too.
+      // The density of the lattice is 2.4e-4 low (docs/formulas/swe.md (S6)), images at the walls make it so
+      // there too.
       CHECK(sums.depth(k) / sums.cover(k) == Approx(0.4).epsilon(5e-4));
       CHECK(sums.u(k) / sums.cover(k) == Approx(0.25).epsilon(1e-12));
       CHECK(sums.v(k) / sums.cover(k) == Approx(-0.5).epsilon(1e-12));

@@ -30,7 +30,8 @@ TEST_CASE("roughness: every particle feels the n of its place, also after it has
     double most = 0;
     for (int i = 0; i < flow.size(); ++i) {
       const double n = flow.real("x")(i) < 0.5 ? 0.01 : 0.05;
-      const double drag = 9.81 * n * n / std::pow(flow.real("depth")(i), 4.0 / 3);  // SWE-FORMULAS section 4
+      // docs/formulas/swe.md (S27)
+      const double drag = 9.81 * n * n / std::pow(flow.real("depth")(i), 4.0 / 3);
       most = std::max(most, std::abs(flow.real("drag")(i) / drag - 1));
     }
     return most;

@@ -1,4 +1,4 @@
-// The pair force of SWE-FORMULAS 2.1 and 6 as scalar sums over all pairs, written as the sheet prints it.
+// The pair force of docs/formulas/swe.md (S15) to (S20) as scalar sums over all pairs, as the page has it.
 #pragma once
 #include <Eigen/Dense>
 

@@ -161,7 +161,8 @@ std::vector<double> roots_after(std::vector<Grain> grains, double time) {
   return cloud.by_id("depth");
 }
 
-// d rho/dt against the roots a moment later and earlier, along a random motion of all particles (SWE-FORMULAS 1.3).
+// d rho/dt, docs/formulas/swe.md (S12), against the roots a moment later and earlier, along a random motion
+// of all particles.
 template <int D>
 void check_rate() {
   CAPTURE(D);
@@ -265,8 +266,8 @@ TEST_CASE("density: does not depend on the order of the input") {
 }
 
 TEST_CASE("density: the lattice's bias") {
-  // SWE-FORMULAS 1.2 and 1.7, half a unit of the last digit printed there. The sheet's sums are at fixed h; h following the
-  // density changes them by the bias squared.
+  // docs/formulas/swe.md (S6), half a unit of the last digit. The digits are of sums at fixed h; h following
+  // the density changes them by the bias squared.
   CHECK(swe::lattice_sums<1>(1.0).density == Approx(1).epsilon(1e-12));
   CHECK(swe::lattice_sums<1>(1.0).alpha == Approx(1).epsilon(1e-12));
   CHECK(swe::lattice_sums<1>(1.2).density - 1 == Approx(1.8e-3).margin(0.5e-4));

@@ -1,4 +1,5 @@
-// The pair force against a scalar sum over all pairs, written from SWE-FORMULAS 2.1 and 6, and against its energy.
+// The pair force against a scalar sum over all pairs, written from docs/formulas/swe.md (S15) to (S20), and
+// against its energy.
 #include "kernels/swe/internal_force.hpp"
 
 #include <catch2/catch.hpp>

@@ -56,8 +56,8 @@ double terminal_speed(double depth, double dt, int steps) {
 }  // namespace
 
 TEST_CASE("motion: friction has the exact steady state at any step") {
-  // sqrt(S) d^(2/3) / n of SWE-FORMULAS section 4, and the digits that it prints. The runs last 75 times the relaxation
-  // time v/(2 g S); what is left is the error of d^(-1/3), 2e-13.
+  // sqrt(S) d^(2/3) / n, where docs/formulas/swe.md (S27) stands still, and its digits. The runs last 75
+  // times the relaxation time v/(2 g S); what is left is the error of d^(-1/3), 2e-13.
   const double deep = std::sqrt(0.01) * std::pow(1e-2, 2.0 / 3) / 0.03, shallow = std::sqrt(0.01) * std::pow(1e-4, 2.0 / 3) / 0.03;
   CHECK(deep == Approx(0.1547).margin(0.5e-4));
   CHECK(shallow == Approx(7.18e-3).margin(0.5e-5));
@@ -127,7 +127,7 @@ TEST_CASE("motion: the variational acceleration keeps a point mass' energy, of s
   CHECK(finer < 1e-3);
   CHECK(coarse / fine == Approx(4).margin(1));
   CHECK(fine / finer == Approx(4).margin(0.6));
-  CHECK(bowl_error(0.005, false) > 0.1);  // the classical one misses the vertical motion (the sheet: 0.28 there)
+  CHECK(bowl_error(0.005, false) > 0.1);  // the classical one misses the vertical motion
 }
 
 TEST_CASE("motion: still water accelerates nowhere: t = -g B gives a = 0") {
@@ -146,7 +146,7 @@ TEST_CASE("motion: still water accelerates nowhere: t = -g B gives a = 0") {
 }
 
 TEST_CASE("motion: one step against the formulas") {
-  // SWE-FORMULAS 2.2 and 5 with curvature, friction and a pressure force, written out.
+  // docs/formulas/swe.md (S23), (S27) and (S28) with curvature, friction and a pressure force, written out.
   const auto level = [](double x, double y) { return 0.1 * x * x - 0.2 * x * y + 0.05 * y * y; };
   Flow<2> flow({particle(0.4, {1, 2}, {0.3, -0.8})});
   flow.lay_bed(level, 8, 0.5, true);

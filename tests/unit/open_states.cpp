@@ -1,4 +1,5 @@
-// The exterior states of open boundaries against the characteristic relations (SWE-FORMULAS section 9).
+// The exterior states of open boundaries against the characteristic relations, docs/formulas/swe.md (S36) to
+// (S40).
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -51,7 +52,7 @@ TEST_CASE("an imposed level below the critical one is a free fall") {
 TEST_CASE("an imposed velocity raises the level as a bore does") {
   const ExteriorState s = ImposedVelocity{0.3}({1, 0}, flat);
   CHECK(s.inward == 0.3);
-  CHECK(s.depth == Approx(1.0981).margin(5e-5));  // SWE-FORMULAS section 9, "Check": at t = 0+
+  CHECK(s.depth == Approx(1.0981).margin(5e-5));  // docs/formulas/swe.md (S38); the exact bore: 1.0980
   CHECK(leaving(s) == Approx(leaving(1, 0)));
   const ExteriorState out = ImposedVelocity{-0.3}({1, 0}, flat);
   CHECK(out.inward == -0.3);

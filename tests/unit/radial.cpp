@@ -112,9 +112,9 @@ TEST_CASE("radial reference: a published radial solution at t = 2 s") {
 }
 
 TEST_CASE("radial reference: the finite-volume curves of the splitting paper") {
-  // Read off a figure (PROVENANCE: a sanity check, not truth). The dam of these curves is 1000 m across and centred at
-  // x = 1500 m: the initial depth 10 m still stands over 1250 ... 1700 m at 10 s. On slopes of 1 in 40, 10 m of the figure's
-  // width are 0.25 m of depth: 0.2 m on average is what such curves can tell.
+  // Read off a figure of the paper: a sanity check, not truth. The dam of these curves is 1000 m across and
+  // centred at x = 1500 m: the initial depth 10 m still stands over 1250 ... 1700 m at 10 s. On slopes of 1
+  // in 40, 10 m of the figure's width are 0.25 m of depth: 0.2 m on average is what such curves can tell.
   for (int k = 1; k <= 3; ++k) {
     const auto file = test::data_file("cyl_dam_vacondio/cyl_dam_split_t0" + std::to_string(k) + ".csv");
     if (!file) return;

@@ -112,8 +112,8 @@ TEST_CASE("sisph: the closure makes the areas of disordered particles add to not
   CHECK(sisph::close_areas(lattice.g).iterations == 0);
   CHECK(openness(disorder) > 0.01);
   const sisph::ClosureReport report = sisph::close_areas(disorder.g);
-  CHECK(openness(disorder) < 1e-9);  // SISPH-FORMULAS section 9, test 1
-  CHECK(report.change < 0.35);       // measured there: 0.26 to 0.32
+  CHECK(openness(disorder) < 1e-9);  // docs/formulas/sisph.md (I6), to CG's tolerance
+  CHECK(report.change < 0.35);       // 0.26 to 0.32 on other clouds of this disorder
   CHECK(report.negative == 0);
 }
 

@@ -145,7 +145,7 @@ TEST_CASE("smoothing: the cubic spline as data is the cubic spline") {
 }
 
 TEST_CASE("smoothing: lattice bias as measured, and none with the correction") {
-  // SWE-FORMULAS 1.7; half a unit of the last printed digit.
+  // docs/formulas/swe.md (S6); half a unit of the last digit.
   CHECK(lattice_excess<2>(make_kernel<2>(kernel::Wendland{}, 1.2, false), 1.2) == Approx(1.8e-2).margin(0.5e-3));
   CHECK(lattice_excess<2>(make_kernel<2>(kernel::Wendland{}, 2.0, false), 2.0) == Approx(1.2e-3).margin(0.5e-4));
   CHECK(std::abs(lattice_excess<2>(make_kernel<2>(kernel::Quintic{}, 1.1, false), 1.1)) <= 1.4e-4);

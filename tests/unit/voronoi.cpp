@@ -167,7 +167,8 @@ TEST_CASE("voronoi: lone points, pairs and points on one place are surface") {
   for (FlowPoints* s : {&one, &two, &same, &none}) CHECK(flagged_where(*s, s->flags(), [](const Point&) { return true; }) == s->size());
 }
 
-// FPM-FORMULAS section 7 at r = 1.3 dx: 0 % of the bulk flagged, 0 % of the surface missed, all three shapes.
+// At r = 1.3 dx (docs/formulas/fpm.md (F25)) none of the bulk is flagged and none of the surface missed, all
+// three shapes.
 TEST_CASE("voronoi: nothing in the bulk is flagged, nothing on the surface is missed") {
   for (const unsigned seed : {21u, 22u, 23u, 24u}) {
     FlowPoints s(test::jittered(square_of(60, 60), 0.3 * dx, seed), dx);

@@ -1,5 +1,5 @@
-// Walls of modified virtual boundary particles: Vacondio 2010, Table 1.1 (as re-measured in SWE-FORMULAS section 7), mass
-// correction, mirrored velocities, pressure.
+// Walls of modified virtual boundary particles: Vacondio 2010, Table 1.1 (with (1.8) corrected,
+// docs/formulas/swe.md (S30)), mass correction, mirrored velocities, pressure.
 #include "kernels/walls.hpp"
 
 #include <catch2/catch.hpp>
@@ -53,7 +53,7 @@ double deficiency(const Polyline& wall, const Point& p, WallKind kind) {
 
 TEST_CASE("walls: Table 1.1, what a wall without virtual particles lacks") {
   const Point first{0.5 * dx, 0.5 * dx};
-  // Half a unit of the last digit that the sheet prints.
+  // Half a unit of the last digit of the table.
   CHECK(deficiency(straight, first, WallKind::none) == Approx(2.15e-1).margin(0.5e-3));
   CHECK(deficiency(right_angle, first, WallKind::none) == Approx(3.86e-1).margin(0.5e-3));
   CHECK(deficiency(re_entrant, first, WallKind::none) == Approx(4.44e-2).margin(0.5e-4));
@@ -154,7 +154,7 @@ double stretched_sum(double stretch) {
 }  // namespace
 
 TEST_CASE("walls: virtual masses follow h0/h") {
-  // The sheet's corrected column at h/h0 = 0.7, 1.2, 1.5, 2, 3; uncorrected: 0.937, 1.041, 1.105, 1.21, 1.43.
+  // At h/h0 = 0.7, 1.2, 1.5, 2, 3 (docs/formulas/swe.md (S30)); uncorrected: 0.937, 1.041, 1.105, 1.21, 1.43.
   const std::vector<std::array<double, 2>> table{{1.2, 0.998}, {1.5, 0.998}, {2, 0.998}, {3, 0.998}};
   for (const auto& [stretch, expected] : table) {
     CAPTURE(stretch);

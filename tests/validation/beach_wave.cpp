@@ -22,7 +22,7 @@ double lag(const test::CaseRun& run) {
 }  // namespace
 
 TEST_CASE("the shore draws back and comes in again as the exact solution says", "[long]") {
-  // An exact run-up: the provenance names no tolerance. 1 % of the depth within 800 m is 0.5 m rms beside 20 m of draw-down,
+  // An exact run-up. 1 % of the depth within 800 m is 0.5 m rms beside 20 m of draw-down,
   // 0.5 m/s is 3 % of the fastest flow; the shore is a particle, at best within half a spacing: two are allowed.
   const auto drawn = test::finish_case("beach_wave", {"time.end=175", "compare.times=[160, 175]"});
   const auto run_up = test::finish_case("beach_wave");

@@ -37,6 +37,6 @@ TEST_CASE("a solitary wave wraps around a conical island", "[bp06][long]") {
   }
   REQUIRE(beside == 4);
   CHECK(peaks / beside < 0.2);
-  CHECK(errors < 0.2);  // mean error relative to the measured range (PROVENANCE)
+  CHECK(errors < 0.2);  // mean error relative to the measured range
   CHECK(s.mass.relative_error <= 1e-12);
 }

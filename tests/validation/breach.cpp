@@ -1,4 +1,4 @@
-// A flood of Thamesmead's size over synthetic terrain. Bounds: issue 3, last row of its table.
+// A flood of Thamesmead's size over synthetic terrain: the hydrograph's water to 0.5 %, mass to round-off.
 #include <catch2/catch.hpp>
 
 #include "tests/support/run_case.hpp"

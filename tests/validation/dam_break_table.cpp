@@ -1,4 +1,5 @@
-// Vacondio 2010, Table 2.1: the wet dam break under every stabilisation. The printed numbers are L1 norms (SWE-FORMULAS 10).
+// Vacondio 2010, Table 2.1: the wet dam break under every stabilisation. The printed numbers are L1 norms
+// (docs/formulas/swe.md (S50)).
 #include <catch2/catch.hpp>
 
 #include "tests/support/run_case.hpp"

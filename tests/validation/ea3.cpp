@@ -29,7 +29,7 @@ TEST_CASE("EA test 3: momentum carries water over the crest", "[ea3][long]") {
   const test::ChannelFlow reference = finite_volumes(scene);
   const test::CaseRun run = test::finish_case("ea3");
   const double beyond = run.mass_where([](double x, double) { return x > crest; });
-  // 1,310 m3 enter (PROVENANCE); the particles carry 0.2 to 0.3 m3 each across the line.
+  // 1,310 m3 enter, the hydrograph's; the particles carry 0.2 to 0.3 m3 each across the line.
   CHECK(run.summary.mass.inflow == Approx(1310).epsilon(0.005));
   CHECK(run.summary.mass.relative_error <= 1e-10);
   CHECK(beyond > 0);  // what diffusive solvers fail

@@ -33,7 +33,7 @@ Errors errors_at(double spacing) {
 TEST_CASE("fpm column: the accelerations of the first instant are exact to second order") {
   const Errors coarse = errors_at(0.1), middle = errors_at(0.05), fine = errors_at(0.025);
   CAPTURE(coarse.face, middle.face, fine.face, coarse.top, middle.top, fine.top);
-  // Issue 6, at H / dx = 40.
+  // H / dx = 40.
   CHECK(fine.face <= 3.5e-4);
   CHECK(fine.top <= 3.5e-4);
   // Order 2: a factor of 4 per halving, 3.4 with what irregular leading terms leave.

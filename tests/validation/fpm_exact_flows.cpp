@@ -1,4 +1,5 @@
-// Incompressible flows with exact solutions: Taylor-Green vortices and the drop that becomes an ellipse (issue 6, thesis 5.4).
+// Incompressible flows with exact solutions: Taylor-Green vortices and the drop that becomes an ellipse,
+// docs/formulas/fpm.md (F33), (F34).
 #include <catch2/catch.hpp>
 
 #include "tests/support/flow.hpp"

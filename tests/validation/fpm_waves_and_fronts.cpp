@@ -1,4 +1,5 @@
-// Incompressible flow with a free surface: the period of a standing wave, and the front of a column that collapses (issue 6).
+// Incompressible flow with a free surface: the period of a standing wave, and the front of a column that
+// collapses.
 #include <catch2/catch.hpp>
 
 #include <algorithm>

@@ -47,7 +47,7 @@ TEST_CASE("the flood of Merewether settles at its flood marks", "[merewether][lo
     CAPTURE(marks[k].name);
     CHECK(run.summary.gauges[k].name == marks[k].name);
     const double level = settled(run.gauges[k]);
-    // Published models differ from the marks by 0.1 to 0.3 m (PROVENANCE).
+    // Published models differ from the marks by 0.1 to 0.3 m.
     CHECK(level == Approx(marks[k].level).margin(0.3));
     sum += std::abs(level - marks[k].level);
   }
