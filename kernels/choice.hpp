@@ -15,7 +15,7 @@ std::string name_of(const std::variant<Each...>& choice) {
   return std::visit([](const auto& c) { return c.name; }, choice);
 }
 template <class Row>
-std::string name_of(const Row& choice) {
+auto name_of(const Row& choice) -> decltype(std::string(choice.name)) {
   return choice.name;
 }
 

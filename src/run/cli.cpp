@@ -16,7 +16,7 @@ const char* const help_text = R"(freshet: meshless shallow-water solver
 usage:
   freshet run SCENE [key=value ...] [--out DIR] [--threads N] [--overwrite] [--quiet]
   freshet resume DIR [--threads N] [--quiet]     go on with a run that was stopped
-  freshet check SCENE [key=value ...]            read the scene back: extent, particles, steps, features
+  freshet check SCENE [key=value ...] [--keys]   read the scene back: extent, particles, steps, features, or every key
   freshet profile SCENE [key=value ...] [--steps N] [--threads N] [--json]   where the time of N (200) steps goes
   freshet list                                   the cases that come with the program
   freshet points DIR [--step K] [--csv FILE]     particles of one output as x,y,z,depth,v_0,v_1 (K: the last)
@@ -91,7 +91,7 @@ const std::vector<Command>& commands() {
        {{"--out", true}, {"--threads", true}, {"--overwrite", false}, {"--quiet", false}},
        run_command},
       {"resume", {{"--threads", true}, {"--quiet", false}}, resume_command},
-      {"check", {{"--threads", true}}, check_command},
+      {"check", {{"--threads", true}, {"--keys", false}}, check_command},
       {"profile", {{"--steps", true}, {"--threads", true}, {"--json", false}}, profile_command},
       {"list", {}, list_command},
       {"points", {{"--step", true}, {"--csv", true}, {"--list", false}}, points_command},

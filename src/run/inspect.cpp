@@ -12,6 +12,7 @@
 #include "src/run/build.hpp"
 #include "src/run/commands.hpp"
 #include "src/scene/diagnostics.hpp"
+#include "src/scene/read.hpp"
 
 namespace freshet {
 namespace fs = std::filesystem;
@@ -48,6 +49,13 @@ void print_method(const Scene& scene, const Method& method) {
               std::ceil(scene.end_time / dt), dt, scene.end_time);
   std::printf("water       %.9g m3\n", method.totals().mass);
   for (const auto& feature : method.features()) std::printf("on          %s\n", feature.c_str());
+}
+
+int print_keys(const std::vector<KeyNote>& keys) {
+  std::printf("key\twhat\trule\tdefault\n");
+  for (const KeyNote& k : keys)
+    std::printf("%s\t%s\t%s\t%s\n", k.path.c_str(), k.what.c_str(), k.rule.c_str(), k.standard.c_str());
+  return 0;
 }
 
 void print_rows(std::FILE* out, const ParticleStep& step) {
@@ -98,7 +106,8 @@ std::string find_scene(const std::string& path_or_case) {
 }
 
 int check_command(const Arguments& arguments, const Parts& parts) {
-  if (arguments.words.size() != 1) throw SceneError("usage: freshet check SCENE [key=value ...]");
+  if (arguments.words.size() != 1) throw SceneError("usage: freshet check SCENE [key=value ...] [--keys]");
+  if (arguments.has("--keys")) return print_keys(known_keys(find_scene(arguments.words[0]), arguments.overrides));
   const Scene scene = parts.read(find_scene(arguments.words[0]), arguments.overrides);
   for (const auto& line : parts.describe(scene)) std::printf("%s\n", line.c_str());
   const auto runtime = start_kokkos(threads_asked(arguments, 0));

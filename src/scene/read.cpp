@@ -95,10 +95,12 @@ toml::table parse(const std::string& text, Diagnostics& diagnostics) {
   return {};
 }
 
-}  // namespace
+struct Noted {
+  Scene scene;
+  std::vector<KeyNote> keys;
+};
 
-Scene read_scene_text(const std::string& text, const std::string& file,
-                      const std::vector<std::string>& overrides) {
+Noted read_noting(const std::string& text, const std::string& file, const std::vector<std::string>& overrides) {
   Diagnostics diagnostics;
   diagnostics.add_source(file, text);
   toml::table tree = parse(text, diagnostics);
@@ -108,7 +110,7 @@ Scene read_scene_text(const std::string& text, const std::string& file,
   Scene scene;
   scene.file = file;
   scene.name = std::filesystem::path(file).stem().string();
-  Context context{diagnostics, std::filesystem::absolute(file).parent_path(), scene.gravity, false, {}};
+  Context context{diagnostics, std::filesystem::absolute(file).parent_path(), scene.gravity, false, {}, {}};
   {
     Table root(context, &tree, "", Place{});
     read_sections(root, scene);
@@ -119,14 +121,29 @@ Scene read_scene_text(const std::string& text, const std::string& file,
   if (!tree.get_as<toml::table>("scene")) tree.insert_or_assign("scene", toml::table{});
   tree.get_as<toml::table>("scene")->insert("name", scene.name);
   scene.text = serialise(tree);
-  return scene;
+  return {std::move(scene), std::move(context.keys)};
 }
 
-Scene read_scene(const std::string& path, const std::vector<std::string>& overrides) {
+std::string text_of(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   if (!in && text.empty()) throw SceneError(path + ": error: cannot read the scene file");
-  return read_scene_text(text, path, overrides);
+  return text;
+}
+
+}  // namespace
+
+Scene read_scene_text(const std::string& text, const std::string& file,
+                      const std::vector<std::string>& overrides) {
+  return read_noting(text, file, overrides).scene;
+}
+
+Scene read_scene(const std::string& path, const std::vector<std::string>& overrides) {
+  return read_scene_text(text_of(path), path, overrides);
+}
+
+std::vector<KeyNote> known_keys(const std::string& path, const std::vector<std::string>& overrides) {
+  return read_noting(text_of(path), path, overrides).keys;
 }
 
 }  // namespace freshet

@@ -1,4 +1,4 @@
-// Reads a scene file (TOML, SI units) into a Scene. cases/README.md lists the keys.
+// Reads a scene file (TOML, SI units) into a Scene. docs/reference/scene_keys.md lists the keys.
 #pragma once
 #include <string>
 #include <vector>
@@ -18,6 +18,17 @@ Scene read_scene(const std::string& path, const std::vector<std::string>& overri
 // searched for data.
 Scene read_scene_text(const std::string& text, const std::string& file,
                       const std::vector<std::string>& overrides = {});
+
+// What a key of a scene may be.
+struct KeyNote {
+  std::string path;      // "water.spacing"; of tables in arrays "boundary.0.type"
+  std::string what;      // "a number in m"
+  std::string rule;      // "positive"
+  std::string standard;  // its default, as a scene would write it, "required", or "" where it is not one value
+};
+
+// Every key that the reader asked this scene for, named or not, in the order of reading.
+std::vector<KeyNote> known_keys(const std::string& path, const std::vector<std::string>& overrides = {});
 
 // What was understood, one line each: extent, bed, water, boundaries, stations, numerics, notes.
 std::vector<std::string> describe(const Scene& scene);

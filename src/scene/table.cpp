@@ -24,6 +24,13 @@ std::string rounded(double number) {
   return text;
 }
 
+KeyNote& Context::note(const std::string& path, const std::string& what) {
+  auto known = std::find_if(keys.begin(), keys.end(), [&](const KeyNote& k) { return k.path == path; });
+  if (known == keys.end()) known = keys.insert(known, {path, what, "", ""});
+  if (!what.empty()) known->what = what;
+  return *known;
+}
+
 template class Value<double>;
 template class Value<int>;
 
@@ -82,6 +89,7 @@ toml::node* Table::find(const std::string& key) {
 }
 
 Slot Table::slot(const std::string& key, const std::string& hint) {
+  context_.note(path_of(key), hint);
   return {&context_, path_of(key), place_of(key), has(key), [this, key, hint] {
             missing_.push_back({key, hint});
           }};

@@ -12,7 +12,9 @@
 #include <utility>
 #include <vector>
 
+#include "kernels/choice.hpp"
 #include "src/scene/diagnostics.hpp"
+#include "src/scene/read.hpp"
 #include "src/scene/scene.hpp"
 #include "src/scene/toml_names.hpp"
 
@@ -20,16 +22,36 @@ namespace freshet::input {
 
 // What all tables of one scene share.
 struct Context {
+  KeyNote& note(const std::string& path, const std::string& what);  // of a key; the same one again for the same path
+
   Diagnostics& diagnostics;
   std::filesystem::path directory;  // of the scene file: relative paths start here
   double gravity = 9.81;            // m/s2, the constant g of expressions
   bool exact_failed =
       false;  // [compare] names an exact solution, with errors: no errors follow from its absence
   std::vector<std::string> notes;  // what the reader decided and the user may want to know
+  std::vector<KeyNote> keys;       // in the order in which they were asked for
 };
 
 std::string shown(double number);    // the shortest text that reads back to the same number
 std::string rounded(double number);  // eight digits, for places
+
+// A value as a scene would write it; "" where it cannot be said.
+template <class T>
+auto named_or_empty(const T& choice, int) -> decltype(name_of(choice)) {
+  return '"' + name_of(choice) + '"';
+}
+template <class T>
+std::string named_or_empty(const T&, long) {
+  return "";
+}
+template <class T>
+std::string written(const T& value) {
+  if constexpr (std::is_same_v<T, bool>) return value ? "true" : "false";
+  else if constexpr (std::is_arithmetic_v<T>) return shown(value);
+  else if constexpr (std::is_same_v<T, std::string>) return '"' + value + '"';
+  else return named_or_empty(value, 0);
+}
 
 // A key of a table, named or not.
 struct Slot {
@@ -48,6 +70,7 @@ class Value {
 
   template <class Test>
   Value& check(Test holds, const std::string& rule, const std::string& help = "") {
+    note().rule += (note().rule.empty() ? "" : ", ") + rule;
     if (value_ && !holds(*value_))
       fail("'" + slot_.path + "' is " + shown(*value_) + "; it must be " + rule, help);
     return *this;
@@ -69,17 +92,27 @@ class Value {
   }
 
   T required(T stand_in = {}) {  // absent: error
+    note().standard = "required";
     if (!slot_.given) slot_.report_missing();
     return value_.value_or(std::move(stand_in));
   }
-  T otherwise(T fallback) const { return value_.value_or(std::move(fallback)); }
+  T otherwise(T fallback) const {
+    note().standard = word_ ? word_(fallback) : written(fallback);
+    return value_.value_or(std::move(fallback));
+  }
   const std::optional<T>& optional() const { return value_; }
   bool given() const { return slot_.given; }  // named in the scene, though perhaps with an error
   Place place() const { return slot_.place; }
+  KeyNote& note() const { return slot_.context->note(slot_.path, ""); }
+  Value& worded(std::function<std::string(const T&)> word) {  // how the key's note says a value
+    word_ = std::move(word);
+    return *this;
+  }
 
  private:
   Slot slot_;
   std::optional<T> value_;
+  std::function<std::string(const T&)> word_;
 };
 
 extern template class Value<double>;  // table.cpp
@@ -166,6 +199,18 @@ std::vector<std::string> words_of(const std::vector<std::pair<std::string, E>>& 
   return words;
 }
 
+// The word that a choice goes by.
+template <class E>
+auto word_for(const E& choice, const std::vector<std::pair<std::string, E>>&, int) -> decltype(name_of(choice)) {
+  return written(choice);
+}
+template <class E>
+std::string word_for(const E& choice, const std::vector<std::pair<std::string, E>>& choices, long) {
+  for (const auto& [word, value] : choices)
+    if (value == choice) return written(word);
+  return "";
+}
+
 template <class E>
 E chosen(const std::string& word, const std::vector<std::pair<std::string, E>>& choices) {
   for (const auto& choice : choices)
@@ -176,7 +221,8 @@ E chosen(const std::string& word, const std::vector<std::pair<std::string, E>>& 
 template <class E>
 Value<E> Table::choice(const std::string& key, const std::vector<std::pair<std::string, E>>& choices) {
   const std::optional<std::string> found = word(key, words_of(choices)).optional();
-  return value<E>(key, found ? std::optional<E>(chosen(*found, choices)) : std::nullopt, listed(words_of(choices)));
+  Value<E> it = value<E>(key, found ? std::optional<E>(chosen(*found, choices)) : std::nullopt, listed(words_of(choices)));
+  return it.worded([choices](const E& e) { return word_for(e, choices, 0); });
 }
 
 template <class E>
