@@ -1,14 +1,11 @@
 // A value that depends on the place: one of its own inside each polygon (1-D: interval), another elsewhere.
 #pragma once
-#include <array>
-#include <vector>
-
-#include "cellgrid/vec.hpp"
+#include "kernels/walls/polyline.hpp"
 
 namespace freshet {
 
 struct ValuedRegion {
-  std::vector<std::array<double, 2>> corners;  // m, of a polygon; 1-D: the two ends
+  Polyline corners;  // m, of a polygon; 1-D: the two ends
   double value;
 };
 
@@ -29,15 +26,11 @@ class PlacedValue {
     const double a = x_(first_(r)), b = x_(first_(r) + 1);
     return smaller(a, b) <= p.x && p.x < larger(a, b);
   }
-  // Even number of edges to the right: outside.
   KOKKOS_INLINE_FUNCTION bool contains(int r, const Vec<double, 2>& p) const {
     bool inside = false;
     const int begin = first_(r), end = first_(r + 1);
-    for (int k = begin, before = end - 1; k < end; before = k++) {
-      if ((y_(k) > p.y) == (y_(before) > p.y)) continue;
-      const double crossing = x_(k) + (p.y - y_(k)) / (y_(before) - y_(k)) * (x_(before) - x_(k));
-      inside = inside != (p.x < crossing);
-    }
+    for (int k = begin, before = end - 1; k < end; before = k++)
+      inside = inside != crosses_ray({x_(before), y_(before)}, {x_(k), y_(k)}, p);
     return inside;
   }
 

@@ -10,19 +10,6 @@
 
 namespace freshet {
 
-// x and, in 2-D, y [m].
-template <int D>
-KOKKOS_INLINE_FUNCTION Vec<double, D> to_vec(double x, double y) {
-  Vec<double, D> place;
-  place.x = x;
-  if constexpr (D == 2) place.y = y;
-  return place;
-}
-template <int D>
-Vec<double, D> to_vec(const std::array<double, 2>& point) {
-  return to_vec<D>(point[0], point[1]);
-}
-
 struct SampledDepth {
   double bed = 0;    // m
   double depth = 0;  // m, 0 if no particle reaches the place

@@ -10,7 +10,7 @@ namespace freshet::fpm {
 KOKKOS_INLINE_FUNCTION Vec<double, 2> middle_of(const PointCell& c, const Cloud& cloud, const Vec<double, 2>& p, int edge) {
   if (edge >= 0) return {0.5 * c.around.x[edge], 0.5 * c.around.y[edge]};
   const Side& s = cloud.tank.sides(Cell::segment_of(edge));
-  return -TankView::foot_on(s, p).off * s.normal;
+  return -foot_on(s, p).off * s.normal;
 }
 
 // m2

@@ -27,13 +27,13 @@ KOKKOS_INLINE_FUNCTION Standing hold(const TankView& tank, const Standing& here,
   if (here.kind == in_corner) return {tank.sides(here.side).b, in_corner, here.side};
   if (here.kind == on_wall) {
     const Side& s = tank.sides(here.side);
-    const double along = TankView::foot_on(s, here.x).along;
+    const double along = foot_on(s, here.x).along;
     if (along < 0 || along > s.length) return past_end(tank, here, along);
     return {tank.place(here.side, along), on_wall, here.side};
   }
-  const Footing f = tank.nearest(here.x, reach);
-  if (f.side < 0 || f.foot.off >= close) return here;
-  return {tank.place(f.side, clamp(f.foot.along, 0.0, tank.sides(f.side).length)), on_wall, f.side};
+  const NearestPiece f = tank.nearest(here.x, reach);
+  if (f.piece < 0 || f.foot.off >= close) return here;
+  return {tank.place(f.piece, clamp(f.foot.along, 0.0, tank.sides(f.piece).length)), on_wall, f.piece};
 }
 
 }  // namespace freshet::fpm

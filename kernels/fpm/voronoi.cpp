@@ -45,7 +45,7 @@ struct Searcher {
   }
 
   KOKKOS_FORCEINLINE_FUNCTION bool stands_on(const Side& s, const Vec<double, 2>& p) const {
-    const double off = dot(p - s.a, s.normal);
+    const double off = foot_on(s, p).off;
     return off < 1e-6 * cloud.spacing && off > -1e-6 * cloud.spacing;
   }
 
@@ -54,7 +54,7 @@ struct Searcher {
     if (!speaks(l, number)) return;
     const Side& s = cloud.tank.sides(side);
     const Vec<double, 2> x = l.p + l.corner(k);
-    const double along = dot(x - s.a, s.tangent);
+    const double along = foot_on(s, x).along;
     if (along < 0 || along > s.length) return;
     const bool both = stands_on(s, l.p) && stands_on(s, l.p + l.to(number));
     l.offer(Missing::at_wall, root(r2) / ((both ? 0.5 * rule.edge : rule.hole) * l.dx), l.corner(k), side);
@@ -76,8 +76,8 @@ struct Searcher {
     if (!is_air(l.c, cloud, l.i, k, radii) && !is_air(l.c, cloud, l.i, cell.after(k), radii)) return;
     if (l.c.around.r2[number] >= 4 * radii.open2 || crosses_air(l.c, cloud, l.i, number)) return;
     const Vec<double, 2> middle = 0.5 * l.to(number);
-    const Footing under = cloud.tank.nearest(l.p + middle, 1e-3 * l.dx);
-    if (under.side < 0) l.offer(Missing::on_surface, root(l.c.around.r2[number]) / longest, middle);
+    const NearestPiece under = cloud.tank.nearest(l.p + middle, 1e-3 * l.dx);
+    if (under.piece < 0) l.offer(Missing::on_surface, root(l.c.around.r2[number]) / longest, middle);
   }
 
   KOKKOS_INLINE_FUNCTION Missing search(int i, const PointCell& c) const {

@@ -3,17 +3,20 @@
 // |x_j - x_i'|: coefficients stay symmetric and fluxes antisymmetric, mass is kept to round-off. Walls with right-angled corners
 // (the water inside) also have the image through the corner. Pairs that a wall separates are none.
 #pragma once
-#include <array>
 #include <functional>
 #include <vector>
 
 #include "cellgrid/pairs.hpp"
-#include "kernels/segment_bins.hpp"
 #include "kernels/sisph/images.hpp"
+#include "kernels/walls/piece_bins.hpp"
 
 namespace freshet::sisph {
 
-using Polyline = std::vector<std::array<double, 2>>;  // m, the water on its left; closed if it ends where it begins; 1-D: one point
+// Where two walls meet; 1-D: the wall.
+struct WallCorner {
+  Vec<double, 2> x{};           // m
+  Vec<double, 2> normals[2]{};  // of both, towards the water
+};
 
 // Straight pieces in chains: along a chain only the nearest point reflects, at corners with the water inside chains end.
 template <int D>
@@ -21,10 +24,10 @@ class MirrorWalls {
  public:
   MirrorWalls() = default;  // no walls
   // Ends that meet no other wall go on straight for `beyond` [m], more than a support, where goes_on(end): sides of the domain, where openings begin.
-  using Ends = std::function<bool(const std::array<double, 2>&)>;
+  using Ends = std::function<bool(const Point&)>;
   MirrorWalls(const std::vector<Polyline>& lines, double beyond, const Ends& goes_on = [](const auto&) { return true; });
 
-  KOKKOS_FORCEINLINE_FUNCTION bool given() const { return pieces_.size() > 0 || corners_.size() > 0; }
+  KOKKOS_FORCEINLINE_FUNCTION bool given() const { return bins_.size() > 0 || corner_bins_.size() > 0; }
   int slanting_corners() const { return slanting_; }  // corners with the water inside that are not right ones: no image through them
 
   // Whether a wall may matter to a particle: one is nearer than the distance.
@@ -40,20 +43,17 @@ class MirrorWalls {
 
  private:
   struct Plane {
-    double q[2] = {0, 0}, m[2] = {0, 0};  // a point of it, and its normal towards the water
-    double square = 1e300;                // m2, distance
+    Vec<double, 2> q, m;  // a point of it [m], and its normal towards the water
     bool valid = false;
   };
-  enum End : int { at_a = 1, at_b = 2 };
   // Of the first chain from `chain` on that has pieces in the box; chain becomes the next one there, -1: none.
-  KOKKOS_FORCEINLINE_FUNCTION Plane nearest(const Box& box, double x, double y, int& chain) const;
+  KOKKOS_FORCEINLINE_FUNCTION Plane nearest(const Box& box, const Vec<double, 2>& x, int& chain) const;
 
   int slanting_ = 0;
-  SegmentBins pieces_, corners_;         // where pieces and corners are
-  Field<int> chain_;                     // of pieces: whose they are; one chain's follow each other
-  Field<double> ax_, ay_, tx_, ty_, length_;  // of pieces: start [m], unit tangent, length [m]
-  Field<int> end_;                       // of pieces: at which ends an open chain ends, at_a | at_b
-  Field<double> corner_;                 // x, y, and both normals: six values each; 1-D: x
+  PieceBins bins_, corner_bins_;
+  Kokkos::View<Piece*, Memory> pieces_;  // those of one chain follow each other; joined along it alone
+  Field<int> chain_;                     // of pieces: whose they are
+  Kokkos::View<WallCorner*, Memory> corners_;
 };
 
 // Images, and what finding them needs; listing again keeps the room that there is, more is made with some to spare.
@@ -75,8 +75,6 @@ VecField<double, D> place_images(int particles, const PairRequest<D>& request, c
 namespace detail {
 KOKKOS_FORCEINLINE_FUNCTION double second(const Vec<double, 1>&) { return 0; }
 KOKKOS_FORCEINLINE_FUNCTION double second(const Vec<double, 2>& a) { return a.y; }
-KOKKOS_FORCEINLINE_FUNCTION Vec<double, 1> make(double x, double, Vec<double, 1>) { return {x}; }
-KOKKOS_FORCEINLINE_FUNCTION Vec<double, 2> make(double x, double y, Vec<double, 2>) { return {x, y}; }
 KOKKOS_FORCEINLINE_FUNCTION Sym<double, 1> mirror(double, double, Vec<double, 1>) { return {-1.0}; }
 KOKKOS_FORCEINLINE_FUNCTION Sym<double, 2> mirror(double mx, double my, Vec<double, 2>) {
   return {1 - 2 * mx * mx, -2 * mx * my, 1 - 2 * my * my};
@@ -88,34 +86,33 @@ KOKKOS_FORCEINLINE_FUNCTION Sym<double, 2> invert(Vec<double, 2>) { return {-1.0
 // The wall's nearest point; at a bend with the water outside (270 degrees) the plane stands across the line to it. A place beside
 // an end of an open chain sees none.
 template <int D>
-KOKKOS_FORCEINLINE_FUNCTION typename MirrorWalls<D>::Plane MirrorWalls<D>::nearest(const Box& box, double x, double y,
+KOKKOS_FORCEINLINE_FUNCTION typename MirrorWalls<D>::Plane MirrorWalls<D>::nearest(const Box& box, const Vec<double, 2>& x,
                                                                                    int& chain) const {
   constexpr int none = 0x7fffffff;
-  Plane best{{0, 0}, {0, 0}, 1e300, false};
+  Plane best;
+  double least = 1e300;  // m2
   int here = none, next = none, nearest = none;
-  pieces_.any(box, [&](int k) {  // in any order: of pieces equally near the first one counts
+  bins_.any(box, [&](int k) {  // in any order: of pieces equally near the first one counts
     const int whose = chain_(k);
     if (whose < chain) return false;
     if (whose < here) {
       next = here;
       here = whose;
-      best.square = 1e300;
+      least = 1e300;
     } else if (whose > here) {
       next = smaller(next, whose);
       return false;
     }
-    const double dx = x - ax_(k), dy = y - ay_(k), along = dx * tx_(k) + dy * ty_(k);
-    const double s = smaller(larger(along, 0.0), length_(k)), px = dx - s * tx_(k), py = dy - s * ty_(k);
-    const double square = px * px + py * py;
-    if (!(square < best.square || (square == best.square && k < nearest))) return false;
+    const Piece& s = pieces_(k);
+    const Foot<double> f = foot_on(s, x);
+    const Vec<double, 2> from = from_nearest(s, x, f.along);
+    const double square = dot(from, from);
+    if (!(square < least || (square == least && k < nearest))) return false;
     nearest = k;
-    const bool inside = along > 0 && along < length_(k);
-    const double per = inside || square == 0 ? 0 : 1 / root(square);
-    const bool past_end = ((end_(k) & at_a) && along < 0) || ((end_(k) & at_b) && along > length_(k));
-    const double side = -ty_(k) * dx + tx_(k) * dy;  // > 0: on the water's side
-    best = {{ax_(k) + s * tx_(k), ay_(k) + s * ty_(k)},
-            {per > 0 ? per * px : -ty_(k), per > 0 ? per * py : tx_(k)},
-            square, side > 0 && !past_end};
+    least = square;
+    const bool inside = (f.along > 0 && f.along < s.length) || square == 0;
+    best = {s.a + clamp(f.along, 0.0, s.length) * s.tangent, inside ? s.normal : (1 / root(square)) * from,
+            f.off > 0 && !past_free_end(s, f.along)};
     return false;
   });
   chain = next == none ? -1 : next;
@@ -124,15 +121,13 @@ KOKKOS_FORCEINLINE_FUNCTION typename MirrorWalls<D>::Plane MirrorWalls<D>::neare
 
 template <int D>
 KOKKOS_INLINE_FUNCTION bool MirrorWalls<D>::near(const Vec<double, D>& x, double distance) const {
-  const double px = x.x, py = detail::second(x);
-  if constexpr (D == 1) {
-    return corners_.any(box_around(x, distance), [&](int k) { return ::fabs(px - corner_(k)) < distance; });
-  }
-  return pieces_.any(box_around(x, distance), [&](int k) {
-    const double dx = px - ax_(k), dy = py - ay_(k), s = smaller(larger(dx * tx_(k) + dy * ty_(k), 0.0), length_(k));
-    const double ox = dx - s * tx_(k), oy = dy - s * ty_(k);
-    return ox * ox + oy * oy < distance * distance;
-  });
+  if constexpr (D == 1)
+    return corner_bins_.any(box_around(x, distance), [&](int k) { return ::fabs(x.x - corners_(k).x.x) < distance; });
+  else
+    return bins_.any(box_around(x, distance), [&](int k) {
+      const Vec<double, 2> from = from_nearest(pieces_(k), x, foot_on(pieces_(k), x).along);
+      return dot(from, from) < distance * distance;
+    });
 }
 
 // An image is nearer than the support, so that its plane is within half of that of the middle. Inlined, so that the
@@ -142,24 +137,23 @@ template <class See>
 KOKKOS_FORCEINLINE_FUNCTION void MirrorWalls<D>::for_each_image(const Vec<double, D>& xi, const Vec<double, D>& xj,
                                                                 double support, const See& see) const {
   const Vec<double, D> middle = 0.5 * (xi + xj), like{};
+  const Vec<double, 2> place{middle.x, detail::second(middle)};
   const double limit = support * support;
   const Box near = box_around(middle, 0.5 * (1 + 1e-6) * support);
   for (int chain = 0; chain >= 0;) {
-    const Plane p = nearest(near, middle.x, detail::second(middle), chain);
+    const Plane p = nearest(near, place, chain);
     if (!p.valid) continue;
-    const Vec<double, D> q = detail::make(p.q[0], p.q[1], like), m = detail::make(p.m[0], p.m[1], like);
+    const Vec<double, D> q = to_vec<D>(p.q.x, p.q.y), m = to_vec<D>(p.m.x, p.m.y);
     const double away_i = dot(m, xi - q), away_j = dot(m, xj - q);
     if (!(away_i > 0) || !(away_j > 0)) continue;
     const Vec<double, D> image = xj - (2 * away_j) * m, d = image - xi;
-    if (dot(d, d) < limit) see(image, detail::mirror(p.m[0], p.m[1], like));
+    if (dot(d, d) < limit) see(image, detail::mirror(p.m.x, p.m.y, like));
   }
-  corners_.for_each(near, [&](int k) {
-    const int at = D == 2 ? 6 * k : k;
-    const Vec<double, D> corner = detail::make(corner_(at), D == 2 ? corner_(at + 1) : 0.0, like);
-    const Vec<double, D> off = middle - corner, image = 2.0 * corner - xj, d = image - xi;
-    bool inside = true;
-    if constexpr (D == 2)
-      inside = corner_(at + 2) * off.x + corner_(at + 3) * off.y > 0 && corner_(at + 4) * off.x + corner_(at + 5) * off.y > 0;
+  corner_bins_.for_each(near, [&](int k) {
+    const WallCorner& at = corners_(k);
+    const Vec<double, D> corner = to_vec<D>(at.x.x, at.x.y), image = 2.0 * corner - xj, d = image - xi;
+    const Vec<double, 2> off = place - at.x;
+    const bool inside = D == 1 || (dot(at.normals[0], off) > 0 && dot(at.normals[1], off) > 0);
     if (inside && dot(d, d) < limit) see(image, detail::invert(like));
   });
 }
@@ -168,15 +162,9 @@ template <int D>
 KOKKOS_INLINE_FUNCTION bool MirrorWalls<D>::part(const Vec<double, D>& xi, const Vec<double, D>& xj) const {
   const Box way = box_between(xi, xj);
   if constexpr (D == 1)
-    return corners_.any(way, [&](int k) { return (xi.x - corner_(k)) * (xj.x - corner_(k)) < 0; });
-  const double ix = xi.x, iy = detail::second(xi), jx = xj.x, jy = detail::second(xj);
-  return pieces_.any(way, [&](int k) {
-    const double side_i = tx_(k) * (iy - ay_(k)) - ty_(k) * (ix - ax_(k)), side_j = tx_(k) * (jy - ay_(k)) - ty_(k) * (jx - ax_(k));
-    if (side_i * side_j >= 0) return false;
-    const double f = side_i / (side_i - side_j);  // of the way from i to j
-    const double along = tx_(k) * (ix + f * (jx - ix) - ax_(k)) + ty_(k) * (iy + f * (jy - iy) - ay_(k));
-    return along >= 0 && along <= length_(k);
-  });
+    return corner_bins_.any(way, [&](int k) { return (xi.x - corners_(k).x.x) * (xj.x - corners_(k).x.x) < 0; });
+  else
+    return bins_.any(way, [&](int k) { return crosses(pieces_(k), xi, xj); });
 }
 
 }  // namespace freshet::sisph

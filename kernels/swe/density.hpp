@@ -2,7 +2,7 @@
 // d rho/dt (2.34) and the least-squares gradient of v.
 #pragma once
 #include "kernels/swe/particles.hpp"
-#include "kernels/walls.hpp"
+#include "kernels/walls/walls.hpp"
 
 namespace freshet::swe {
 

@@ -182,12 +182,12 @@ struct SumDensity {
   // What the neighbours' images add: the cluster's own image sees the neighbours.
   KOKKOS_INLINE_FUNCTION void add_images(int c, const Here<D>& i, Lane inv_h, WallSums<Lane, D>& wall) const {
     const Lane per_volume = power<D>(inv_h);
-    walls.for_each_image(c, i.x, [&](const Image<D>& image, Lane weight, const WallSegment& segment) {
+    walls.for_each_image(c, i.x, [&](const Image<D>& image, Lane weight, const WallPiece& piece) {
       const Vec<Lane, D> x_image = image(i.x);
-      const double limit = kernel.support / smallest(inv_h) + walls.foremost(segment, x_image);
+      const double limit = kernel.support / smallest(inv_h) + walls.foremost(piece, x_image);
       if (limit <= 0) return;
       const PairSums<Lane, D> s = walk<Want::rate>(c, x_image, image.turn(i.v), inv_h,
-                                             [&](int j) { return walls.mirrors(segment, at(p.x, j), limit); });
+                                             [&](int j) { return walls.mirrors(piece, at(p.x, j), limit); });
       wall.density += weight * per_volume * s.density;
       wall.moment += weight * per_volume * inv_h * s.moment;
       wall.approach += weight * per_volume * inv_h * s.closing;

@@ -3,7 +3,7 @@
 #pragma once
 #include "kernels/swe/particles.hpp"
 #include "kernels/swe/stabilisation.hpp"
-#include "kernels/walls.hpp"
+#include "kernels/walls/walls.hpp"
 
 namespace freshet::swe {
 

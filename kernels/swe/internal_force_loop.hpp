@@ -134,15 +134,15 @@ struct InternalForce {
 
   // The force of the neighbours' images: what i's image feels from the neighbours, mirrored back.
   KOKKOS_INLINE_FUNCTION void add_images(int c, const Here<Lane, D>& i, ForceSums<Lane, D>& sum) const {
-    walls.for_each_image(c, i.x, [&](const Image<D>& image, Lane weight, const WallSegment& segment) {
+    walls.for_each_image(c, i.x, [&](const Image<D>& image, Lane weight, const WallPiece& piece) {
       Here<Lane, D> other = i;
       other.x = image(i.x);
       other.v = image.turn(i.v);
       if constexpr (Stabilise::velocity_gradient) other.strain = image.turn(i.strain);
       if constexpr (Stabilise::depth_gradient) other.depth_slope = image.turn(i.depth_slope);
-      const double ahead = walls.foremost(segment, other.x), reach = kernel.support * largest(i.h);
+      const double ahead = walls.foremost(piece, other.x), reach = kernel.support * largest(i.h);
       const ForceSums<Lane, D> felt = walk(c, other, [&](int j) {
-        return walls.mirrors(segment, at(p.x, j), larger(reach, kernel.support * p.h(j)) + ahead);
+        return walls.mirrors(piece, at(p.x, j), larger(reach, kernel.support * p.h(j)) + ahead);
       });
       sum.t += weight * image.turn_back(felt.t);
       sum.signal = larger(sum.signal, weight * felt.signal);

@@ -7,7 +7,7 @@
 #include "kernels/regions.hpp"
 #include "kernels/swe/particles.hpp"
 #include "kernels/swe/split_pattern.hpp"
-#include "kernels/walls.hpp"
+#include "kernels/walls/walls.hpp"
 
 namespace freshet::swe {
 

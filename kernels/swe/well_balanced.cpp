@@ -52,8 +52,8 @@ struct BalancedBed {
     const Lane b = me.load(bed.level), inv_h = me.load(p.inv_h);
     BedPush<D> push = sum(c, x, b, inv_h, [](int) { return true; });
     if (walls.on && walls.mirror)
-      walls.for_each_image(c, x, [&](const Image<D>& image, Lane weight, const WallSegment& segment) {
-        const BedPush<D> seen = sum(c, image(x), b, inv_h, [&](int j) { return walls.mirrors(segment, at(p.x, j), 1e300); });
+      walls.for_each_image(c, x, [&](const Image<D>& image, Lane weight, const WallPiece& piece) {
+        const BedPush<D> seen = sum(c, image(x), b, inv_h, [&](int j) { return walls.mirrors(piece, at(p.x, j), 1e300); });
         push.t += weight * image.turn_back(seen.t);
         push.seen += weight * seen.seen;
       });

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "kernels/kernel_name.hpp"
+#include "kernels/walls/point.hpp"
 
 namespace freshet {
 
-using Point = std::array<double, 2>;                      // x, y [m]
 using Function = std::function<double(double, double)>;   // of x, y
 class Exact;                                              // src/reference/exact.hpp
 
@@ -111,7 +111,7 @@ struct Transect {
 };
 
 enum class Stabilisation { none, artificial_viscosity, lax_friedrichs, lax_friedrichs_muscl, two_shock, two_shock_muscl };
-// automatic: mirror images where every corner of the walls is a right one with the water inside, else rows. See kernels/walls.hpp.
+// automatic: mirror images where every corner of the walls is a right one with the water inside, else rows. See kernels/walls/walls.hpp.
 enum class Walling { automatic, none, vbp, mvbp, rows, mirror };
 enum class Acceleration { classical, variational };
 

@@ -29,7 +29,7 @@ struct Graded {
 
   explicit Graded(double spacing) : order(2, spacing, test::wide(spacing)) {
     const Scene scene = unit_square(spacing);
-    std::vector<test::Point> places;
+    std::vector<Point> places;
     for (const auto& p : place_points(scene)) places.push_back({p.x[0], p.x[1]});
     fields = test::point_fields(2, places);
     order.sort(fields);

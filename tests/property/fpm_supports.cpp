@@ -8,7 +8,6 @@
 
 using namespace freshet;
 using test::FlowPoints;
-using test::Point;
 
 namespace {
 

@@ -17,9 +17,6 @@
 
 namespace freshet::test {
 
-using Point = std::array<double, 2>;  // m; y = 0 in 1-D
-using Polyline = std::vector<Point>;
-
 // The same uniform numbers with every standard library.
 class Random {
  public:

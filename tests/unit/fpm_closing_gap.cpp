@@ -6,7 +6,6 @@
 
 using namespace freshet;
 using test::FlowPoints;
-using test::Point;
 
 namespace {
 

@@ -7,7 +7,7 @@
 
 using namespace freshet;
 using namespace freshet::fpm;
-using freshet::test::Point;
+using freshet::Point;
 
 namespace {
 

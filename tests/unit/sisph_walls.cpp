@@ -10,7 +10,6 @@
 
 using namespace freshet;
 using sisph::MirrorWalls;
-using sisph::Polyline;
 using V2 = Vec<double, 2>;
 
 namespace {

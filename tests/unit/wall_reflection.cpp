@@ -1,5 +1,5 @@
 // What crosses a wall all the same is put back.
-#include "kernels/walls.hpp"
+#include "kernels/walls/walls.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -7,8 +7,6 @@
 
 using namespace freshet;
 using test::Cloud;
-using test::Point;
-using test::Polyline;
 
 namespace {
 

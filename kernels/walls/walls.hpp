@@ -11,52 +11,14 @@
 #pragma once
 #include "cellgrid/clusters.hpp"
 #include "kernels/smoothing.hpp"
-#include "kernels/wall_points.hpp"
+#include "kernels/walls/points.hpp"
 
 namespace freshet {
 
-// A segment as a position sees it.
-struct Side {
-  double distance2;  // m2, to its nearest point
-  double inside;     // m, on the water's side of its line
-};
-
-KOKKOS_INLINE_FUNCTION Side side_of(const WallSegment& s, const Vec<double, 1>& p) {
-  const double r = p.x - s.a[0];
-  return {r * r, r * s.normal[0]};
-}
-KOKKOS_INLINE_FUNCTION Side side_of(const WallSegment& s, const Vec<double, 2>& p) {
-  const double rx = p.x - s.a[0], ry = p.y - s.a[1];
-  const double foot = rx * s.tangent[0] + ry * s.tangent[1], along = clamp(foot, 0.0, s.length);
-  const double dx = rx - along * s.tangent[0], dy = ry - along * s.tangent[1];
-  const bool beyond = (foot < 0 && s.see_a == free_end) || (foot > s.length && s.see_b == free_end);
-  return {beyond ? free_end : dx * dx + dy * dy, rx * s.normal[0] + ry * s.normal[1]};
-}
-
 template <int D>
-KOKKOS_INLINE_FUNCTION Vec<double, D> normal_of(const WallSegment& s) {
-  Vec<double, D> n;
-  n.x = s.normal[0];
-  if constexpr (D == 2) n.y = s.normal[1];
-  return n;
+KOKKOS_INLINE_FUNCTION Vec<double, D> normal_of(const Piece& s) {
+  return to_vec<D>(s.normal.x, s.normal.y);
 }
-
-// The segment that a position is behind: its nearest one decides; at a corner, where two are equally near, the one whose line
-// is farther away.
-struct NearestSegment {
-  double deepest2;           // m2, as far as a position behind a wall is still caught
-  Side side{deepest2, 0};
-  int segment = -1;
-
-  KOKKOS_INLINE_FUNCTION void look_at(int k, const Side& here) {
-    const double tie = 1e-9 * deepest2;
-    const bool same = here.distance2 < side.distance2 + tie && here.inside * here.inside > side.inside * side.inside;
-    if (here.distance2 >= side.distance2 - tie && !same) return;
-    side = here;
-    segment = k;
-  }
-  KOKKOS_INLINE_FUNCTION int behind() const { return side.inside < 0 ? segment : -1; }
-};
 
 // An orthogonal map x -> R x + shift: a reflection in one wall, or in both walls of a corner.
 template <int D>
@@ -65,12 +27,13 @@ struct Image {
   double shift[D] = {};
 
   Image() = default;
-  explicit KOKKOS_FORCEINLINE_FUNCTION Image(const WallSegment& s) {
+  explicit KOKKOS_FORCEINLINE_FUNCTION Image(const Piece& s) {
+    const double n[2] = {s.normal.x, s.normal.y}, a[2] = {s.a.x, s.a.y};
     double offset = 0;
-    for (int k = 0; k < D; ++k) offset += s.normal[k] * s.a[k];
+    for (int k = 0; k < D; ++k) offset += n[k] * a[k];
     for (int k = 0; k < D; ++k) {
-      shift[k] = 2 * offset * s.normal[k];
-      for (int l = 0; l < D; ++l) r[k][l] = (k == l ? 1.0 : 0.0) - 2 * s.normal[k] * s.normal[l];
+      shift[k] = 2 * offset * n[k];
+      for (int l = 0; l < D; ++l) r[k][l] = (k == l ? 1.0 : 0.0) - 2 * n[k] * n[l];
     }
   }
   // First this, then the other.
@@ -121,19 +84,17 @@ struct WallView {
   SymField<double, D> projector;   // P: onto the directions that the wall reflects
   Field<double> share;             // of the virtual mass: about 1; rows: the area of each point [m2] (1-D: m)
   NeighbourView near;              // wall points by cluster
-  Field<int> segment;              // of each wall point
-  Kokkos::View<WallSegment*, Memory> segments;
-  SegmentBins bins;                // of the segments
+  Field<int> piece;                // of each wall point
+  Kokkos::View<WallPiece*, Memory> pieces;
+  PieceBins bins;                  // of the pieces
   double deepest = 0;              // m, how far behind a wall a particle is still caught
 
   // The position, mirrored in the wall that it stands behind; again in the one behind which that puts it.
   KOKKOS_INLINE_FUNCTION Vec<double, D> inside(Vec<double, D> p) const {
-    constexpr double more = 1 + 1e-6;  // than the ties of NearestSegment
     for (int turns = 0; turns < 4; ++turns) {
-      NearestSegment nearest{deepest * deepest};
-      bins.for_each(box_around(p, more * deepest), [&](int k) { nearest.look_at(k, side_of(segments(k), p)); });
-      if (nearest.behind() < 0) break;
-      p += (-2 * nearest.side.inside) * normal_of<D>(segments(nearest.segment));
+      const NearestPiece nearest = nearest_piece(pieces, bins, p, deepest);
+      if (nearest.foot.off >= 0) break;
+      p += (-2 * nearest.foot.off) * normal_of<D>(pieces(nearest.piece));
     }
     return p;
   }
@@ -149,52 +110,47 @@ struct WallView {
   // sums feel i too; the others push as the energy of i alone asks, since dx_k/dx_i = 1 - s.
   KOKKOS_FORCEINLINE_FUNCTION double pushes(double s) const { return rows ? 2.0 : s; }
 
-  // 1 in the lanes that see the images behind the segment.
-  KOKKOS_FORCEINLINE_FUNCTION static Lane before(const WallSegment&, const Vec<Lane, 1>&) { return 1.0; }
-  KOKKOS_FORCEINLINE_FUNCTION static Lane before(const WallSegment& s, const Vec<Lane, 2>& x) {
-    const Lane along = (x.x - s.a[0]) * s.tangent[0] + (x.y - s.a[1]) * s.tangent[1];
-    return select((Lane(-s.see_a) < along) & (along < Lane(s.length + s.see_b)), Lane(1.0), Lane(0.0));
+  // 1 in the lanes that see the images behind the piece: past free ends, where openings begin, all do.
+  KOKKOS_FORCEINLINE_FUNCTION static Lane before(const WallPiece&, const Vec<Lane, 1>&) { return 1.0; }
+  KOKKOS_FORCEINLINE_FUNCTION static Lane before(const WallPiece& s, const Vec<Lane, 2>& x) {
+    constexpr double all = 1e300;  // m
+    const Lane along = foot_on(s, x).along, from(s.before < 0 ? -all : -s.beyond_a);
+    return select((from < along) & (along < Lane(s.length + (s.after < 0 ? all : s.beyond_b))), Lane(1.0), Lane(0.0));
   }
 
   // How far inside the water the foremost of a cluster's images stands [m]: negative behind the wall.
-  KOKKOS_FORCEINLINE_FUNCTION static double foremost(const WallSegment& s, const Vec<Lane, 1>& image) {
-    return largest((image.x - s.a[0]) * s.normal[0]);
-  }
-  KOKKOS_FORCEINLINE_FUNCTION static double foremost(const WallSegment& s, const Vec<Lane, 2>& image) {
-    return largest((image.x - s.a[0]) * s.normal[0] + (image.y - s.a[1]) * s.normal[1]);
+  KOKKOS_FORCEINLINE_FUNCTION static double foremost(const WallPiece& s, const Vec<Lane, D>& image) {
+    return largest(foot_on(s, image).off);
   }
 
-  // Whether the segment mirrors a particle to an image that stands no further than `limit` from it along the normal, measured
-  // from the wall: it is on the water's side, not beside the segment (in an opening next to it).
-  KOKKOS_FORCEINLINE_FUNCTION static bool mirrors(const WallSegment& s, const Vec<double, 1>& x, double limit) {
-    return (x.x - s.a[0]) * s.normal[0] < limit;
-  }
-  KOKKOS_FORCEINLINE_FUNCTION static bool mirrors(const WallSegment& s, const Vec<double, 2>& x, double limit) {
-    const double dx = x.x - s.a[0], dy = x.y - s.a[1], inside = dx * s.normal[0] + dy * s.normal[1];
-    if (!(inside > 0 && inside < limit)) return false;
-    const double along = dx * s.tangent[0] + dy * s.tangent[1];
-    return along > -s.before && along < s.length + s.after;
+  // Whether the piece mirrors a particle to an image that stands no further than `limit` from it along the normal, measured
+  // from the wall: it is on the water's side, not beside the piece (in an opening next to it).
+  KOKKOS_FORCEINLINE_FUNCTION static bool mirrors(const WallPiece& s, const Vec<double, D>& x, double limit) {
+    const Foot<double> f = foot_on(s, x);
+    if constexpr (D == 1) return f.off < limit;
+    return f.off > 0 && f.off < limit && f.along > -s.beyond_a && f.along < s.length + s.beyond_b;
   }
 
-  // mirror: calls see(image, weight, segment) for the images of a cluster in the walls near it; weight is 0 in lanes without
-  // one. The image sees the particles that the segment mirrors.
+  // mirror: calls see(image, weight, piece) for the images of a cluster in the walls near it; weight is 0 in lanes without
+  // one. The image sees the particles that the piece mirrors.
   template <class See>
   KOKKOS_INLINE_FUNCTION void for_each_image(int cluster, const Vec<Lane, D>& here, const See& see) const {
     constexpr int most = 24;  // pieces of wall within a support: two or three, many along a curve
     int found[most], n = 0;
     near.for_each(cluster, [&](int k) {
-      bool known = n == most || (n > 0 && found[n - 1] == segment(k));
-      for (int m = 0; m < n; ++m) known = known || found[m] == segment(k);
-      if (!known) found[n++] = segment(k);
+      bool known = n == most || (n > 0 && found[n - 1] == piece(k));
+      for (int m = 0; m < n; ++m) known = known || found[m] == piece(k);
+      if (!known) found[n++] = piece(k);
     });
     for (int a = 0; a < n; ++a) {
-      const WallSegment s = segments(found[a]);
+      const WallPiece s = pieces(found[a]);
       const Image<D> image(s);
       const Lane weight = before(s, here);
       if (!any(Lane(0.0) < weight)) continue;
       see(image, weight, s);
       for (int b = 0; b < n; ++b)
-        if (found[b] == s.next) see(image.then(Image<D>(segments(s.next))), weight * before(segments(s.next), here), s);
+        if (s.beyond_b > 0 && found[b] == s.after)
+          see(image.then(Image<D>(pieces(s.after))), weight * before(pieces(s.after), here), s);
     }
   }
 };
@@ -224,12 +180,12 @@ KOKKOS_INLINE_FUNCTION void add_wall(const K& kernel, const Stretch& stretch, co
   }
 }
 
-// Points, projectors and segments of a scene's walls; the list of points near each cluster.
+// Points, projectors and pieces of a scene's walls; the list of points near each cluster.
 template <int D>
 class Walls {
  public:
   // inside: a point of the water, which tells the side of a 1-D wall. support: of the kernel, in units of h.
-  Walls(const std::vector<WallLine>& lines, const WallOptions& options, const std::array<double, 2>& inside, double support);
+  Walls(const std::vector<Polyline>& lines, const WallOptions& options, const Point& inside, double support);
 
   // Lists the wall points within reach of each cluster for h (1 + margin); of mirrors also those behind which images of larger
   // neighbours reach further than the particle's own h. near: what was listed of the same water.
@@ -252,8 +208,8 @@ class Walls {
   WallKind kind_;
   Stretch stretch_;
   double reach_;  // x h, how far wall points count
-  Kokkos::View<WallSegment*, Memory> segments_;
-  SegmentBins bins_;
+  Kokkos::View<WallPiece*, Memory> pieces_;
+  PieceBins bins_;
   double depth_;  // m, how far behind a wall a particle is still caught
 };
 

@@ -1,4 +1,4 @@
-#include "kernels/walls.hpp"
+#include "kernels/walls/walls.hpp"
 
 #include <algorithm>
 
@@ -25,18 +25,17 @@ Stretch stretch_of(WallKind kind) {
   return kind == WallKind::mvbp ? Stretch{2, {2, 4}} : Stretch{1, {1, 1}};
 }
 
-Box box_of(const std::vector<WallLine>& lines, double beyond) {
-  Box box{1e300, -1e300, 1e300, -1e300};
-  for (const WallLine& line : lines)
-    for (const auto& [x, y] : line)
-      box = {std::min(box.xlo, x), std::max(box.xhi, x), std::min(box.ylo, y), std::max(box.yhi, y)};
+Box box_of(const std::vector<Polyline>& lines, double beyond) {
+  Polyline all;
+  for (const Polyline& line : lines) all.insert(all.end(), line.begin(), line.end());
+  const Box box = bounds_of(all);
   return {box.xlo - beyond, box.xhi + beyond, box.ylo - beyond, box.yhi + beyond};
 }
 
 }  // namespace
 
 template <int D>
-Walls<D>::Walls(const std::vector<WallLine>& lines, const WallOptions& options, const std::array<double, 2>& inside, double support)
+Walls<D>::Walls(const std::vector<Polyline>& lines, const WallOptions& options, const Point& inside, double support)
     : order_(D, options.spacing, box_of(lines, 8 * options.spacing)), near_(32, "walls::list", false), kind_(options.kind),
       stretch_(stretch_of(options.kind)),
       // A virtual particle lies twice as far away as its wall point; a neighbour's image may stand right behind the wall.
@@ -52,7 +51,7 @@ Walls<D>::Walls(const std::vector<WallLine>& lines, const WallOptions& options, 
     add("pxy", [](const WallPoint& w) { return w.p[1]; });
     add("pyy", [](const WallPoint& w) { return w.p[2]; });
   }
-  fill(points_.integer("segment", "1", Carry::sort), g.points, [](const WallPoint& w) { return w.segment; });
+  fill(points_.integer("piece", "1", Carry::sort), g.points, [](const WallPoint& w) { return w.piece; });
   number(points_.integer("id", "1", Carry::sort), points_.size());
   order_.sort(points_);
   // Water alone decides what is near. With tiles of that size (most clusters' reach) water off the walls sees at once that none is.
@@ -60,7 +59,7 @@ Walls<D>::Walls(const std::vector<WallLine>& lines, const WallOptions& options, 
   const Field<double> h = points_.real("h", "m", Carry::no);
   assign(h, next_to_nothing * options.spacing);
   order_.measure_reach(points_, h, tile / next_to_nothing);
-  segments_ = on_device("walls.segments", g.segments);
+  pieces_ = on_device("walls.pieces", g.pieces);
   bins_ = g.bins;
 }
 
@@ -72,8 +71,8 @@ WallView<D> Walls<D>::view() const {
   view.rows = kind_ == WallKind::rows;
   view.stretch = stretch_;
   view.near = near_.view();
-  view.segment = points_.integer("segment");
-  view.segments = segments_;
+  view.piece = points_.integer("piece");
+  view.pieces = pieces_;
   view.bins = bins_;
   view.deepest = depth_;
   view.share = points_.real("share");
@@ -134,17 +133,13 @@ void Walls<D>::find(const ClusterSet& clusters, const ListRequest<D>& water, con
 
 namespace {
 
-// The lanes that stand behind the segment's line and nearer to it than a distance whose square is far2 [m2], by more than rounding;
-// free ends count as wall.
-KOKKOS_FORCEINLINE_FUNCTION bool any_behind(const WallSegment& s, const Vec<Lane, 1>& p, double slack, double far2) {
-  const Lane r = p.x - s.a[0];
-  return any((r * s.normal[0] < Lane(slack)) & (r * r < Lane(far2)));
-}
-KOKKOS_FORCEINLINE_FUNCTION bool any_behind(const WallSegment& s, const Vec<Lane, 2>& p, double slack, double far2) {
-  const Lane rx = p.x - s.a[0], ry = p.y - s.a[1];
-  const Lane along = clamp(rx * s.tangent[0] + ry * s.tangent[1], Lane(0.0), Lane(s.length));
-  const Lane dx = rx - along * s.tangent[0], dy = ry - along * s.tangent[1];
-  return any((rx * s.normal[0] + ry * s.normal[1] < Lane(slack)) & (dx * dx + dy * dy < Lane(far2)));
+// Whether some lane stands behind the piece's line and nearer to it than a distance whose square is far2 [m2], by more than
+// rounding; free ends count as wall.
+template <int D>
+KOKKOS_FORCEINLINE_FUNCTION bool any_behind(const Piece& s, const Vec<Lane, D>& p, double slack, double far2) {
+  const Foot<Lane> f = foot_on(s, p);
+  const Vec<Lane, D> from = from_nearest(s, p, f.along);
+  return any((f.off < Lane(slack)) & (dot(from, from) < Lane(far2)));
 }
 
 // Whether some particle of the cluster may be behind a wall: all lanes at once, since hardly any is.
@@ -154,24 +149,24 @@ KOKKOS_INLINE_FUNCTION bool may_be_behind(const WallView<D>& walls, int cluster,
   int last = -1;
   bool behind = false;
   walls.near.for_each(cluster, [&](int k) {
-    const int segment = walls.segment(k);
-    if (segment != last && !behind) behind = any_behind(walls.segments(segment), here, ties * deepest, (1 + ties) * deepest * deepest);
-    last = segment;
+    const int piece = walls.piece(k);
+    if (piece != last && !behind) behind = any_behind(walls.pieces(piece), here, ties * deepest, (1 + ties) * deepest * deepest);
+    last = piece;
   });
   return behind;
 }
 
-// -1 if the position is in the water. Only the segments near its cluster are looked at.
+// Only the pieces near the position's cluster are looked at.
 template <int D>
-KOKKOS_INLINE_FUNCTION int segment_before(const WallView<D>& walls, int cluster, const Vec<double, D>& p, double deepest) {
+KOKKOS_INLINE_FUNCTION NearestPiece nearest_of(const WallView<D>& walls, int cluster, const Vec<double, D>& p, double deepest) {
   int last = -1;
-  NearestSegment nearest{deepest * deepest};
+  NearestPiece nearest(deepest);
   walls.near.for_each(cluster, [&](int k) {
-    const int here = walls.segment(k);
-    if (here != last) nearest.look_at(here, side_of(walls.segments(here), p));
+    const int here = walls.piece(k);
+    if (here != last) nearest.look_at(here, walls.pieces(here), p);
     last = here;
   });
-  return nearest.behind();
+  return nearest;
 }
 
 }  // namespace
@@ -189,11 +184,10 @@ void Walls<D>::reflect(const ClusterSet& clusters, const VecField<double, D>& x,
         if (!may_be_behind<D>(walls, c, me.load(x), deepest)) return;
         for (int i = me.first; i < me.first + me.count; ++i)
           for (int bounce = 0; bounce < most_bounces; ++bounce) {
-            const int segment = segment_before<D>(walls, c, at(x, i), deepest);
-            if (segment < 0) break;
-            const WallSegment s = walls.segments(segment);
-            const Vec<double, D> normal = normal_of<D>(s);
-            put(x, i, at(x, i) + (-2 * side_of(s, at(x, i)).inside) * normal);
+            const NearestPiece nearest = nearest_of<D>(walls, c, at(x, i), deepest);
+            if (nearest.foot.off >= 0) break;
+            const Vec<double, D> normal = normal_of<D>(walls.pieces(nearest.piece));
+            put(x, i, at(x, i) + (-2 * nearest.foot.off) * normal);
             const VecField<double, D>* const velocities[2] = {&v, &v_pred};  // not copies: those are counted
             for (const auto* velocity : velocities) {
               const double outward = smaller(dot(at(*velocity, i), normal), 0.0);

@@ -1,5 +1,5 @@
-// Segments found by place against all segments asked one by one.
-#include "kernels/segment_bins.hpp"
+// Pieces found by place against all pieces asked one by one.
+#include "kernels/walls/piece_bins.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -9,33 +9,30 @@
 #include "tests/support/cloud.hpp"
 
 using namespace freshet;
-using Ends = SegmentBins::Ends;
 using V2 = Vec<double, 2>;
 
 namespace {
 
 // Whether the segment has a point in the box: the part of it that lies between the box's sides along x and y is not empty.
-bool touches(const Ends& s, const Box& box) {
-  const double low[2] = {box.xlo, box.ylo}, high[2] = {box.xhi, box.yhi};
+bool touches(const Piece& s, const Box& box) {
   double from = 0, to = 1;
-  for (int k = 0; k < 2; ++k) {
-    const double way = s.b[k] - s.a[k];
-    if (way == 0 && (s.a[k] < low[k] || s.a[k] > high[k])) return false;
-    if (way == 0) continue;
-    const double t0 = (low[k] - s.a[k]) / way, t1 = (high[k] - s.a[k]) / way;
+  const auto keep = [&](double a, double b, double low, double high) {
+    if (a == b) return a >= low && a <= high;
+    const double t0 = (low - a) / (b - a), t1 = (high - a) / (b - a);
     from = std::max(from, std::min(t0, t1));
     to = std::min(to, std::max(t0, t1));
-  }
-  return from <= to;
+    return true;
+  };
+  return keep(s.a.x, s.b.x, box.xlo, box.xhi) && keep(s.a.y, s.b.y, box.ylo, box.yhi) && from <= to;
 }
 
-std::vector<int> found(const SegmentBins& bins, const Box& box) {
+std::vector<int> found(const PieceBins& bins, const Box& box) {
   std::vector<int> all;
   bins.for_each(box, [&](int k) { all.push_back(k); });
   return all;
 }
 
-std::vector<int> touching(const std::vector<Ends>& segments, const Box& box) {
+std::vector<int> touching(const std::vector<Piece>& segments, const Box& box) {
   std::vector<int> all;
   for (std::size_t k = 0; k < segments.size(); ++k)
     if (touches(segments[k], box)) all.push_back(static_cast<int>(k));
@@ -43,7 +40,7 @@ std::vector<int> touching(const std::vector<Ends>& segments, const Box& box) {
 }
 
 // Every segment that touches the box is found, once, in ascending order, and any() sees the same ones at least.
-void check(const SegmentBins& bins, const std::vector<Ends>& segments, const Box& box) {
+void check(const PieceBins& bins, const std::vector<Piece>& segments, const Box& box) {
   CAPTURE(box.xlo, box.xhi, box.ylo, box.yhi);
   const std::vector<int> seen = found(bins, box), near = touching(segments, box);
   REQUIRE(std::adjacent_find(seen.begin(), seen.end(), [](int a, int b) { return a >= b; }) == seen.end());
@@ -54,42 +51,42 @@ void check(const SegmentBins& bins, const std::vector<Ends>& segments, const Box
 
 // Chains with shared ends, free segments of all lengths, some along the axes, some of no length at all; far from the origin
 // as maps are.
-std::vector<Ends> mixed(int count, double size, double x0, unsigned seed) {
+std::vector<Piece> mixed(int count, double size, double x0, unsigned seed) {
   test::Random random(seed);
-  std::vector<Ends> all;
-  double end[2] = {x0, x0};
+  std::vector<Piece> all;
+  V2 end{x0, x0};
   for (int k = 0; k < count; ++k) {
     const double reach = size * std::pow(10.0, random(-3, 0));
-    Ends s{{x0 + random(0, size), x0 + random(0, size)}, {}};
-    if (k % 2 == 1) s.a[0] = end[0], s.a[1] = end[1];
-    s.b[0] = k % 7 == 0 ? s.a[0] : s.a[0] + random(-reach, reach);
-    s.b[1] = k % 5 == 0 ? s.a[1] : s.a[1] + random(-reach, reach);
-    end[0] = s.b[0], end[1] = s.b[1];
+    Piece s{{x0 + random(0, size), x0 + random(0, size)}, {}};
+    if (k % 2 == 1) s.a = end;
+    s.b.x = k % 7 == 0 ? s.a.x : s.a.x + random(-reach, reach);
+    s.b.y = k % 5 == 0 ? s.a.y : s.a.y + random(-reach, reach);
+    end = s.b;
     all.push_back(s);
   }
   return all;
 }
 
 // A closed, wavy coast of so many sides round the origin.
-std::vector<Ends> coast(int sides) {
+std::vector<Piece> coast(int sides) {
   const double pi = std::acos(-1.0);
   const auto at = [&](int k) {
     const double angle = 2 * pi * (k % sides) / sides, r = 1000 * (1 + 0.1 * std::sin(17 * angle));
     return V2{r * std::cos(angle), r * std::sin(angle)};
   };
-  std::vector<Ends> all;
-  for (int k = 0; k < sides; ++k) all.push_back({{at(k).x, at(k).y}, {at(k + 1).x, at(k + 1).y}});
+  std::vector<Piece> all;
+  for (int k = 0; k < sides; ++k) all.push_back({at(k), at(k + 1)});
   return all;
 }
 
 }  // namespace
 
-TEST_CASE("segment bins: boxes of all sizes find what asking all segments finds") {
+TEST_CASE("piece bins: boxes of all sizes find what asking all segments finds") {
   const double x0 = GENERATE(0.0, -3.0, 5e5), size = 10, finest = GENERATE(0.0, 0.3, 4.0, 1e3);
   const int count = GENERATE(1, 3, 40, 400);
   CAPTURE(x0, finest, count);
   const auto segments = mixed(count, size, x0, 7u + static_cast<unsigned>(count));
-  const SegmentBins bins(segments, finest);
+  const PieceBins bins(segments, finest);
   REQUIRE(bins.size() == count);
   test::Random random(5);
   for (int n = 0; n < 300; ++n) {
@@ -100,23 +97,23 @@ TEST_CASE("segment bins: boxes of all sizes find what asking all segments finds"
   }
 }
 
-TEST_CASE("segment bins: boxes of no size on ends and middles of segments find them") {
+TEST_CASE("piece bins: boxes of no size on ends and middles of segments find them") {
   const double x0 = GENERATE(0.0, 5e5);
   const auto segments = mixed(200, 10, x0, 3);
-  const SegmentBins bins(segments);
+  const PieceBins bins(segments);
   for (std::size_t k = 0; k < segments.size(); ++k)
     for (const double t : {0.0, 0.5, 1.0}) {
-      const Ends& s = segments[k];
-      const V2 p{s.a[0] + t * (s.b[0] - s.a[0]), s.a[1] + t * (s.b[1] - s.a[1])};
+      const Piece& s = segments[k];
+      const V2 p = s.a + t * (s.b - s.a);
       const auto seen = found(bins, box_around(p, 0));
       CAPTURE(k, t);
       REQUIRE(std::count(seen.begin(), seen.end(), static_cast<int>(k)) == 1);
     }
 }
 
-TEST_CASE("segment bins: one place, one line, no segments, places that are no numbers") {
+TEST_CASE("piece bins: one place, one line, no segments, places that are no numbers") {
   const double nan = std::nan("");
-  const SegmentBins none, point({{{2, 3}, {2, 3}}, {{2, 3}, {2, 3}}}), level({{{0, 1}, {4, 1}}, {{4, 1}, {9, 1}}});
+  const PieceBins none, point({{{2, 3}, {2, 3}}, {{2, 3}, {2, 3}}}), level({{{0, 1}, {4, 1}}, {{4, 1}, {9, 1}}});
   CHECK(found(none, {-1e300, 1e300, -1e300, 1e300}).empty());
   CHECK_FALSE(none.any({-1, 1, -1, 1}, [](int) { return true; }));
   CHECK(found(point, box_around(V2{2.1, 3.1}, 0.2)) == std::vector<int>{0, 1});
@@ -127,21 +124,21 @@ TEST_CASE("segment bins: one place, one line, no segments, places that are no nu
   CHECK(found(level, box_around(V2{nan, 1}, 1)).empty());
   CHECK(found(level, box_around(V2{1, nan}, 1)).empty());
   // 1-D: walls are points at y = 0.
-  const SegmentBins ends({{{-1, 0}, {-1, 0}}, {{5, 0}, {5, 0}}}, 4);
+  const PieceBins ends({{{-1, 0}, {-1, 0}}, {{5, 0}, {5, 0}}}, 4);
   CHECK(found(ends, box_around(Vec<double, 1>{4.9}, 0.2)) == std::vector<int>{1});
   CHECK(found(ends, box_between(Vec<double, 1>{-2}, Vec<double, 1>{6})) == std::vector<int>{0, 1});
 }
 
-TEST_CASE("segment bins: a query costs what is near, however many sides a coast has") {
+TEST_CASE("piece bins: a query costs what is near, however many sides a coast has") {
   double shown[2] = {0, 0};
   const int sides[2] = {1000, 100000};
   for (int n = 0; n < 2; ++n) {
     const auto segments = coast(sides[n]);
     // As wide as a side of the coast, 7 m and 0.07 m: so many sides are really near a place on it.
     const double reach = 7000.0 / sides[n];
-    const SegmentBins bins(segments, 2 * reach);
+    const PieceBins bins(segments, 2 * reach);
     for (std::size_t k = 0; k < segments.size(); k += segments.size() / 500) {
-      const V2 p{segments[k].a[0], segments[k].a[1]};
+      const V2 p = segments[k].a;
       shown[n] += static_cast<double>(found(bins, box_around(p, reach)).size()) / 500;
       REQUIRE(found(bins, box_around(0.5 * p, reach)).empty());
     }

@@ -1,11 +1,11 @@
-// Segments by place: a lattice of cells over all of them, and for each cell the list of those that cross it.
+// Pieces of lines by place: a lattice of cells over all of them, and for each cell the list of those that cross it.
 // A query is a box; it reads the cells that the box touches, so that it costs what is near, however long the
 // coast is. Made once, on the host.
 #pragma once
 #include <limits>
 #include <vector>
 
-#include "cellgrid/box.hpp"
+#include "kernels/walls/polyline.hpp"
 
 namespace freshet {
 
@@ -24,19 +24,15 @@ KOKKOS_FORCEINLINE_FUNCTION Box box_between(const Vec<double, 2>& p, const Vec<d
   return {smaller(p.x, q.x), larger(p.x, q.x), smaller(p.y, q.y), larger(p.y, q.y)};
 }
 
-class SegmentBins {
+class PieceBins {
  public:
-  struct Ends {
-    double a[2], b[2];  // m; equal: a point; 1-D: y = 0
-  };
-
-  SegmentBins() = default;  // of no segments: nothing is allocated, nothing found
-  // finest [m]: cells are no smaller, for queries of about that width; about 50 of them per segment at most.
-  explicit SegmentBins(const std::vector<Ends>& segments, double finest = 0);
+  PieceBins() = default;  // of no pieces: nothing is allocated, nothing found
+  // finest [m]: cells are no smaller, for queries of about that width; about 50 of them per piece at most.
+  explicit PieceBins(const std::vector<Piece>& pieces, double finest = 0);
 
   KOKKOS_FORCEINLINE_FUNCTION int size() const { return size_; }
 
-  // Calls see(k) once for every segment that touches the box, and some that do not, in ascending order: sums
+  // Calls see(k) once for every piece that touches the box, and some that do not, in ascending order: sums
   // and ties come out as if all were asked.
   template <class See>
   KOKKOS_FORCEINLINE_FUNCTION void for_each(const Box& box, const See& see) const {
@@ -72,8 +68,8 @@ class SegmentBins {
   };
 
   template <class Visit>
-  void for_each_crossed(const Ends& s, const Visit& visit) const;
-  void span(const std::vector<Ends>& segments, double finest);
+  void for_each_crossed(const Piece& s, const Visit& visit) const;
+  void span(const std::vector<Piece>& pieces, double finest);
 
   // False of places that are not numbers, too.
   KOKKOS_FORCEINLINE_FUNCTION bool reaches(const Box& b) const {
@@ -95,7 +91,7 @@ class SegmentBins {
     return count;
   }
 
-  // The first segment of the cells behind segment `last`, size() if there is none. Lists ascend: bisection.
+  // The first piece of the cells behind piece `last`, size() if there is none. Lists ascend: bisection.
   KOKKOS_INLINE_FUNCTION int next(const Cells& c, int last) const {
     int best = size_;
     for (int j = c.j0; j <= c.j1; ++j)
@@ -115,9 +111,18 @@ class SegmentBins {
   static constexpr double infinite = std::numeric_limits<double>::infinity();
   Box bounds_{infinite, -infinite, infinite, -infinite};  // m; of nothing, which no box reaches
   double per_cell_ = 0;  // 1/m
-  double slack_ = 0;     // m, by which segments count as thicker than they are: more than places round by
+  double slack_ = 0;     // m, by which pieces count as thicker than they are: more than places round by
   Field<int> first_;     // entry of cell i + j nx; nx ny + 1 values
-  Field<int> list_;      // segments, cell by cell
+  Field<int> list_;      // pieces, cell by cell
 };
+
+template <class Pieces, int D>
+KOKKOS_INLINE_FUNCTION NearestPiece nearest_piece(const Pieces& pieces, const PieceBins& bins, const Vec<double, D>& p,
+                                                  double reach) {
+  constexpr double more = 1 + 1e-6;  // than the tie
+  NearestPiece nearest(reach);
+  bins.for_each(box_around(p, more * reach), [&](int k) { nearest.look_at(k, pieces(k), p); });
+  return nearest;
+}
 
 }  // namespace freshet
