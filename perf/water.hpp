@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cellgrid/pairs.hpp"
-#include "kernels/bed_spline.hpp"
+#include "kernels/ground/bed_spline.hpp"
 #include "kernels/swe/density.hpp"
 #include "kernels/swe/depth_gradient.hpp"
 #include "kernels/swe/internal_force.hpp"

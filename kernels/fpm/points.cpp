@@ -3,7 +3,7 @@
 #include "cellgrid/launch.hpp"
 #include "kernels/fpm/holding.hpp"
 #include "kernels/fpm/merging.hpp"
-#include "kernels/ids.hpp"
+#include "kernels/water/ids.hpp"
 
 namespace freshet::fpm {
 namespace {

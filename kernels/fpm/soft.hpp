@@ -5,7 +5,7 @@
 // the more the lower these are. Clouds off jets hardly have such (jitter 0.3 dx: least 0.06 inside and on straight edges); in two ragged
 // rows a step multiplies errors by up to 1.2 then (3.8 with pivots of at least 0.01).
 #pragma once
-#include "kernels/small_dense.hpp"
+#include "kernels/linear/small_dense.hpp"
 
 namespace freshet::fpm {
 

@@ -11,7 +11,7 @@
 #pragma once
 #include <optional>
 
-#include "kernels/bed_spline.hpp"
+#include "kernels/ground/bed_spline.hpp"
 #include "kernels/linear/cg.hpp"
 #include "kernels/linear/particle_mesh.hpp"
 #include "kernels/sisph/followers.hpp"

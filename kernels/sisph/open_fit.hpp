@@ -1,7 +1,7 @@
 // The water near a place of an open boundary, fitted to the particles there.
 #pragma once
+#include "kernels/linear/small_dense.hpp"
 #include "kernels/sisph/open.hpp"
-#include "kernels/small_dense.hpp"
 
 namespace freshet::sisph {
 namespace {

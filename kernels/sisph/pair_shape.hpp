@@ -3,7 +3,7 @@
 // itself, has G = W = 0 and is 1 m apart, so that it can be divided by.
 #pragma once
 #include "cellgrid/vec.hpp"
-#include "kernels/smoothing.hpp"
+#include "kernels/smoothing/smoothing.hpp"
 
 namespace freshet::sisph {
 

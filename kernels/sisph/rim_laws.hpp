@@ -3,7 +3,7 @@
 #pragma once
 #include <vector>
 
-#include "kernels/open_in_time.hpp"
+#include "kernels/open/in_time.hpp"
 
 namespace freshet::sisph {
 

@@ -1,8 +1,8 @@
 // Open boundary: one or more straight pieces that share what is imposed (a total discharge, say), and the account of the water
 // that passed. Each step: inner states are observed, the law of the kind gives the exterior states, the buffers apply them.
 #pragma once
+#include "kernels/open/states.hpp"
 #include "kernels/swe/open_buffer.hpp"
-#include "kernels/open_states.hpp"
 
 namespace freshet::swe {
 

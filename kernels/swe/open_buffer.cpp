@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "cellgrid/launch.hpp"
-#include "kernels/ids.hpp"
 #include "kernels/swe/open_exterior.hpp"
+#include "kernels/water/ids.hpp"
 
 namespace freshet::swe {
 namespace {

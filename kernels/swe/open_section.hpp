@@ -3,7 +3,7 @@
 #pragma once
 #include <vector>
 
-#include "kernels/open_states.hpp"
+#include "kernels/open/states.hpp"
 
 namespace freshet::swe {
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include "kernels/regions.hpp"
+#include "kernels/ground/regions.hpp"
 #include "kernels/swe/particles.hpp"
 #include "kernels/swe/split_pattern.hpp"
 #include "kernels/walls/walls.hpp"

@@ -3,8 +3,8 @@
 
 #include "cellgrid/assign.hpp"
 #include "cellgrid/launch.hpp"
-#include "kernels/ids.hpp"
 #include "kernels/swe/refinement.hpp"
+#include "kernels/water/ids.hpp"
 
 namespace freshet::swe {
 namespace {

@@ -10,7 +10,7 @@
 //   none    nothing but the reflection of what crosses the line
 #pragma once
 #include "cellgrid/clusters.hpp"
-#include "kernels/smoothing.hpp"
+#include "kernels/smoothing/smoothing.hpp"
 #include "kernels/walls/points.hpp"
 
 namespace freshet {

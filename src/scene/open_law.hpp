@@ -1,8 +1,8 @@
-// What an open boundary of a scene imposes, as the laws of kernels/open_states.hpp.
+// What an open boundary of a scene imposes, as the laws of kernels/open/states.hpp.
 #pragma once
 #include <functional>
 
-#include "kernels/open_in_time.hpp"
+#include "kernels/open/in_time.hpp"
 #include "src/scene/scene.hpp"
 
 namespace freshet {

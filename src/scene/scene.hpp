@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "kernels/kernel_name.hpp"
+#include "kernels/smoothing/kernel_name.hpp"
 #include "kernels/walls/point.hpp"
 
 namespace freshet {

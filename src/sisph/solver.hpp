@@ -6,9 +6,8 @@
 #pragma once
 #include <optional>
 
-#include "kernels/bed_spline.hpp"
-#include "kernels/nearest_table.hpp"
-#include "kernels/sampling.hpp"
+#include "kernels/ground/bed_spline.hpp"
+#include "kernels/ground/nearest_table.hpp"
 #include "kernels/sisph/active.hpp"
 #include "kernels/sisph/closure.hpp"
 #include "kernels/sisph/conservative.hpp"
@@ -19,6 +18,7 @@
 #include "kernels/sisph/rim.hpp"
 #include "kernels/sisph/semi_lagrangian.hpp"
 #include "kernels/sisph/viscosity.hpp"
+#include "kernels/water/sampling.hpp"
 #include "src/method.hpp"
 
 namespace freshet::sisph {

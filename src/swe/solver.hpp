@@ -4,12 +4,12 @@
 #include <optional>
 
 #include "cellgrid/sums.hpp"
-#include "kernels/sampling.hpp"
 #include "kernels/swe/density.hpp"
 #include "kernels/swe/internal_force.hpp"
 #include "kernels/swe/motion.hpp"
 #include "kernels/swe/open_boundary.hpp"
 #include "kernels/swe/refinement.hpp"
+#include "kernels/water/sampling.hpp"
 #include "src/method.hpp"
 
 namespace freshet::swe {

@@ -1,5 +1,5 @@
 // The smoothing kernels: norm, slope, support.
-#include "kernels/smoothing.hpp"
+#include "kernels/smoothing/smoothing.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -4,8 +4,8 @@
 #include <limits>
 #include <map>
 
-#include "kernels/ids.hpp"
 #include "kernels/swe/refinement.hpp"
+#include "kernels/water/ids.hpp"
 #include "tests/support/cloud.hpp"
 
 using namespace freshet;

@@ -2,7 +2,7 @@
 // Shepard means where there is enough water, and the largest values so far.
 #pragma once
 #include "cellgrid/clusters.hpp"
-#include "kernels/smoothing.hpp"
+#include "kernels/smoothing/smoothing.hpp"
 
 namespace freshet {
 

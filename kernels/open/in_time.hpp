@@ -1,7 +1,7 @@
 // Laws of open boundaries whose values follow series of time, on the device: for boundaries that look at
 // other times in each place.
 #pragma once
-#include "kernels/open_states.hpp"
+#include "kernels/open/states.hpp"
 
 namespace freshet {
 

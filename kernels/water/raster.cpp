@@ -1,4 +1,4 @@
-#include "kernels/raster.hpp"
+#include "kernels/water/raster.hpp"
 
 #include <algorithm>
 #include <cmath>

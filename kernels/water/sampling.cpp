@@ -1,4 +1,4 @@
-#include "kernels/sampling.hpp"
+#include "kernels/water/sampling.hpp"
 
 #include <optional>
 

@@ -4,9 +4,9 @@
 #include <array>
 #include <vector>
 
-#include "kernels/bed_spline.hpp"
-#include "kernels/raster.hpp"
-#include "kernels/wet_levels.hpp"
+#include "kernels/ground/bed_spline.hpp"
+#include "kernels/water/raster.hpp"
+#include "kernels/water/wet_levels.hpp"
 
 namespace freshet {
 

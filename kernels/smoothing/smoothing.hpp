@@ -4,7 +4,7 @@
 #include <variant>
 
 #include "cellgrid/lanes.hpp"
-#include "kernels/kernel_name.hpp"
+#include "kernels/smoothing/kernel_name.hpp"
 
 namespace freshet {
 

@@ -1,4 +1,4 @@
-#include "kernels/regions.hpp"
+#include "kernels/ground/regions.hpp"
 
 #include "cellgrid/on_device.hpp"
 

@@ -1,4 +1,4 @@
-#include "kernels/nearest_table.hpp"
+#include "kernels/ground/nearest_table.hpp"
 
 #include <algorithm>
 #include <cmath>

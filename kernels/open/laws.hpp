@@ -1,7 +1,7 @@
 // The laws of open_states.hpp, for host and device.
 #pragma once
 #include "cellgrid/types.hpp"
-#include "kernels/open_states.hpp"
+#include "kernels/open/states.hpp"
 
 namespace freshet {
 namespace open_states {

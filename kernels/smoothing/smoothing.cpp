@@ -1,4 +1,4 @@
-#include "kernels/smoothing.hpp"
+#include "kernels/smoothing/smoothing.hpp"
 
 #include <cmath>
 

@@ -118,4 +118,4 @@ class DischargeShares {
 
 }  // namespace freshet
 
-#include "kernels/open_laws.hpp"
+#include "kernels/open/laws.hpp"

@@ -1,4 +1,4 @@
-#include "kernels/bed_spline.hpp"
+#include "kernels/ground/bed_spline.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "kernels/open_states.hpp"
+#include "kernels/open/states.hpp"
 
 namespace freshet {
 
