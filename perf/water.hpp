@@ -10,9 +10,9 @@
 
 #include "cellgrid/pairs.hpp"
 #include "kernels/ground/bed_spline.hpp"
-#include "kernels/swe/density.hpp"
-#include "kernels/swe/depth_gradient.hpp"
-#include "kernels/swe/internal_force.hpp"
+#include "kernels/swe/density/density.hpp"
+#include "kernels/swe/density/depth_gradient.hpp"
+#include "kernels/swe/force/internal_force.hpp"
 #include "kernels/swe/motion.hpp"
 
 namespace freshet::perf {

@@ -129,7 +129,7 @@ struct Sph {
   Walling walls = Walling::automatic;
   bool slip = true;            // walls; false: they also hold the tangential velocity back
   bool mixed = false;          // pairs in single precision, what is made of their sums in double
-  bool well_balanced = false;  // still water over any bed stays at rest to round-off (kernels/swe/well_balanced.hpp)
+  bool well_balanced = false;  // still water over any bed stays at rest to round-off (kernels/swe/force/well_balanced.hpp)
 };
 
 // The semi-implicit method.

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "cellgrid/launch.hpp"
-#include "kernels/swe/lattice.hpp"
+#include "kernels/swe/density/lattice.hpp"
 #include "src/scene/open_law.hpp"
 #include "src/swe/solver.hpp"
 

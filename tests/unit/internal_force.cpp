@@ -1,5 +1,5 @@
 // The pair force against a scalar sum over all pairs, written from SWE-FORMULAS 2.1 and 6, and against its energy.
-#include "kernels/swe/internal_force.hpp"
+#include "kernels/swe/force/internal_force.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <map>
 
-#include "kernels/swe/refinement.hpp"
+#include "kernels/swe/split/refinement.hpp"
 #include "kernels/water/ids.hpp"
 #include "tests/support/cloud.hpp"
 

@@ -1,4 +1,4 @@
-#include "kernels/swe/split_pattern.hpp"
+#include "kernels/swe/split/pattern.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
-#include "kernels/swe/density.hpp"
+#include "kernels/swe/density/density.hpp"
 
 #include "cellgrid/launch.hpp"
-#include "kernels/swe/density_sums.hpp"
-#include "kernels/swe/least_squares.hpp"
+#include "kernels/swe/density/density_sums.hpp"
+#include "kernels/swe/density/least_squares.hpp"
 
 namespace freshet::swe {
 namespace {

@@ -1,7 +1,7 @@
 // The sums over a cluster's neighbours and its walls that the density iteration is made of.
 #pragma once
-#include "kernels/swe/density.hpp"
-#include "kernels/swe/least_squares.hpp"
+#include "kernels/swe/density/density.hpp"
+#include "kernels/swe/density/least_squares.hpp"
 #include "kernels/swe/single.hpp"
 
 namespace freshet::swe {

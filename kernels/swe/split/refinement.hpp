@@ -6,7 +6,7 @@
 
 #include "kernels/ground/regions.hpp"
 #include "kernels/swe/particles.hpp"
-#include "kernels/swe/split_pattern.hpp"
+#include "kernels/swe/split/pattern.hpp"
 #include "kernels/walls/walls.hpp"
 
 namespace freshet::swe {

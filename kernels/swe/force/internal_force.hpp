@@ -1,8 +1,8 @@
 // Pressure force of the variational SPH-SWE scheme with stabilisation (SWE-FORMULAS 2.1 and 6, for (2.21), (2.52)):
 // t_i = sum_j m_j { [g/(2 alpha_i) + Pi/2] G_ij(h_i) + [g/(2 alpha_j) + Pi/2] G_ij(h_j) }, G = W' x_ij / r, rho_w = 1.
 #pragma once
+#include "kernels/swe/force/stabilisation.hpp"
 #include "kernels/swe/particles.hpp"
-#include "kernels/swe/stabilisation.hpp"
 #include "kernels/walls/walls.hpp"
 
 namespace freshet::swe {

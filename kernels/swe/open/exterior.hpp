@@ -4,7 +4,7 @@
 #pragma once
 #include <optional>
 
-#include "kernels/swe/open_buffer.hpp"
+#include "kernels/swe/open/buffer.hpp"
 
 namespace freshet::swe {
 

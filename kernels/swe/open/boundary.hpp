@@ -2,7 +2,7 @@
 // that passed. Each step: inner states are observed, the law of the kind gives the exterior states, the buffers apply them.
 #pragma once
 #include "kernels/open/states.hpp"
-#include "kernels/swe/open_buffer.hpp"
+#include "kernels/swe/open/buffer.hpp"
 
 namespace freshet::swe {
 

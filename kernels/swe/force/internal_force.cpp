@@ -1,4 +1,4 @@
-#include "kernels/swe/force_request.hpp"
+#include "kernels/swe/force/force_request.hpp"
 
 namespace freshet::swe {
 

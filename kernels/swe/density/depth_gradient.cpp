@@ -1,7 +1,7 @@
-#include "kernels/swe/depth_gradient.hpp"
+#include "kernels/swe/density/depth_gradient.hpp"
 
 #include "cellgrid/launch.hpp"
-#include "kernels/swe/least_squares.hpp"
+#include "kernels/swe/density/least_squares.hpp"
 
 namespace freshet::swe {
 namespace {

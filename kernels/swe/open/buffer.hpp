@@ -10,7 +10,7 @@
 
 #include "cellgrid/sums.hpp"
 #include "kernels/swe/motion.hpp"
-#include "kernels/swe/open_section.hpp"
+#include "kernels/swe/open/section.hpp"
 
 namespace freshet::swe {
 

@@ -3,7 +3,7 @@
 
 #include "cellgrid/assign.hpp"
 #include "cellgrid/launch.hpp"
-#include "kernels/swe/refinement.hpp"
+#include "kernels/swe/split/refinement.hpp"
 #include "kernels/water/ids.hpp"
 
 namespace freshet::swe {

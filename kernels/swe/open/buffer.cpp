@@ -1,10 +1,10 @@
-#include "kernels/swe/open_buffer.hpp"
+#include "kernels/swe/open/buffer.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "cellgrid/launch.hpp"
-#include "kernels/swe/open_exterior.hpp"
+#include "kernels/swe/open/exterior.hpp"
 #include "kernels/water/ids.hpp"
 
 namespace freshet::swe {

@@ -1,6 +1,6 @@
 // Refinement: the smoothing length follows the mass of the particles around.
 #include "cellgrid/launch.hpp"
-#include "kernels/swe/refinement.hpp"
+#include "kernels/swe/split/refinement.hpp"
 
 namespace freshet::swe {
 namespace {

@@ -1,4 +1,4 @@
-#include "kernels/swe/open_section.hpp"
+#include "kernels/swe/open/section.hpp"
 
 #include <type_traits>
 

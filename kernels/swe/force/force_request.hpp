@@ -1,6 +1,6 @@
 // What internal_force() hands to its pair loops, which are compiled once per dimension and precision, side by side.
 #pragma once
-#include "kernels/swe/internal_force.hpp"
+#include "kernels/swe/force/internal_force.hpp"
 
 namespace freshet::swe {
 

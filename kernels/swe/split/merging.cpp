@@ -1,6 +1,6 @@
 // Refinement: merging.
 #include "cellgrid/launch.hpp"
-#include "kernels/swe/refinement.hpp"
+#include "kernels/swe/split/refinement.hpp"
 
 namespace freshet::swe {
 namespace {

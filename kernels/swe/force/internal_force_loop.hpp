@@ -1,7 +1,7 @@
 // The pair loop of internal_force.hpp.
 #pragma once
 #include "cellgrid/launch.hpp"
-#include "kernels/swe/force_request.hpp"
+#include "kernels/swe/force/force_request.hpp"
 #include "kernels/swe/single.hpp"
 
 namespace freshet::swe {

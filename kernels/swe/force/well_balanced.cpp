@@ -1,4 +1,4 @@
-#include "kernels/swe/well_balanced.hpp"
+#include "kernels/swe/force/well_balanced.hpp"
 
 #include "cellgrid/launch.hpp"
 

@@ -1,4 +1,4 @@
-#include "kernels/swe/internal_force_loop.hpp"
+#include "kernels/swe/force/internal_force_loop.hpp"
 
 namespace freshet::swe {
 

@@ -1,4 +1,4 @@
-#include "kernels/swe/open_boundary.hpp"
+#include "kernels/swe/open/boundary.hpp"
 
 #include <algorithm>
 #include <cmath>
