@@ -135,7 +135,7 @@ struct Sph {
 // The semi-implicit method.
 struct Sisph {
   enum class Formulation { at_rest, moving };  // E: particles at rest, wet or dry; L: they move with the water, one mass each
-  // How a moving particle's path follows from its velocities (kernels/sisph/paths.hpp).
+  // How a moving particle's path follows from its velocities (kernels/sisph/moving/paths.hpp).
   enum class Paths { theta, euler, rk2, rk3, leap_frog };
   // The slope of a field: exact for linear fields, or normalised by Shepard's sum alone.
   enum class Correction { krongauz_belytschko, shepard };

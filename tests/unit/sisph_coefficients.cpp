@@ -1,8 +1,8 @@
 // The free surface's matrix found anew in every product against the stored one.
 #include <catch2/catch.hpp>
 
-#include "kernels/sisph/closure.hpp"
-#include "kernels/sisph/surface.hpp"
+#include "kernels/sisph/pairs/closure.hpp"
+#include "kernels/sisph/surface/surface.hpp"
 #include "tests/support/cloud.hpp"
 
 using namespace freshet;

@@ -4,8 +4,8 @@
 #include <map>
 #include <utility>
 
-#include "kernels/sisph/closure.hpp"
-#include "kernels/sisph/gradient.hpp"
+#include "kernels/sisph/pairs/closure.hpp"
+#include "kernels/sisph/velocity/gradient.hpp"
 #include "tests/support/cloud.hpp"
 
 using namespace freshet;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "kernels/sisph/paths.hpp"
+#include "kernels/sisph/moving/paths.hpp"
 
 using namespace freshet::sisph;
 

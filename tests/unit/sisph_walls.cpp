@@ -1,5 +1,5 @@
 // Mirror pairs at walls: planes through the nearest point to the middle of a pair, images through right-angled corners.
-#include "kernels/sisph/walls.hpp"
+#include "kernels/sisph/walls/mirror_walls.hpp"
 
 #include <catch2/catch.hpp>
 
