@@ -192,7 +192,7 @@ struct Merge {
 };
 
 // The incompressible Finite Pointset Method: a flow in a vertical plane, y upwards.
-enum class PressureScheme { filtered, incremental, plain, projection };  // see kernels/fpm/projection.hpp
+enum class PressureScheme { filtered, incremental, plain, projection };  // see kernels/fpm/pressure/projection.hpp
 
 struct Body {
   std::vector<Point> outline;         // m, counter-clockwise, not closed; empty: a circle

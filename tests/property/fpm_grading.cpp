@@ -2,7 +2,7 @@
 // order, still water still.
 #include <catch2/catch.hpp>
 
-#include "kernels/fpm/elliptic.hpp"
+#include "kernels/fpm/pressure/elliptic.hpp"
 #include "src/errors.hpp"
 #include "src/fpm/nodes.hpp"
 #include "src/fpm/place.hpp"

@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "kernels/fpm/points.hpp"
+#include "kernels/fpm/points/points.hpp"
 #include "tests/support/fpm_points.hpp"
 
 using namespace freshet;

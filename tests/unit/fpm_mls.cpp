@@ -2,7 +2,7 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
-#include "kernels/fpm/stencils.hpp"
+#include "kernels/fpm/stencils/stencils.hpp"
 #include "tests/support/cloud.hpp"
 
 using namespace freshet;

@@ -2,7 +2,7 @@
 // iterations of BiCGStab, preconditioned on a mesh.
 #include <catch2/catch.hpp>
 
-#include "kernels/fpm/elliptic.hpp"
+#include "kernels/fpm/pressure/elliptic.hpp"
 #include "tests/support/cloud.hpp"
 
 using namespace freshet;

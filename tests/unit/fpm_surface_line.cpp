@@ -1,7 +1,7 @@
 // The free surface as a line: its level and its front.
 #include <catch2/catch.hpp>
 
-#include "kernels/fpm/surface_line.hpp"
+#include "kernels/fpm/cells/surface_line.hpp"
 #include "tests/support/fpm_points.hpp"
 
 using namespace freshet;

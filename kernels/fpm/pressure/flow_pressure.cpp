@@ -1,5 +1,5 @@
 #include "cellgrid/launch.hpp"
-#include "kernels/fpm/projection.hpp"
+#include "kernels/fpm/pressure/projection.hpp"
 
 namespace freshet::fpm {
 namespace {

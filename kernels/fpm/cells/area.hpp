@@ -2,7 +2,7 @@
 // the water, of which the point owns the part towards itself. The parts of all points make up those triangles, walls included, also
 // where four points share a circle.
 #pragma once
-#include "kernels/fpm/voronoi.hpp"
+#include "kernels/fpm/cells/voronoi.hpp"
 
 namespace freshet::fpm {
 

@@ -1,4 +1,4 @@
-#include "kernels/fpm/neighbours.hpp"
+#include "kernels/fpm/stencils/neighbours.hpp"
 
 #include "cellgrid/box.hpp"
 

@@ -1,4 +1,4 @@
-#include "kernels/fpm/stencils.hpp"
+#include "kernels/fpm/stencils/stencils.hpp"
 
 #include "cellgrid/launch.hpp"
 

@@ -1,4 +1,4 @@
-#include "kernels/fpm/spray.hpp"
+#include "kernels/fpm/pressure/spray.hpp"
 
 namespace freshet::fpm {
 namespace {

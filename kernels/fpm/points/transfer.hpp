@@ -6,7 +6,7 @@
 
 #include "cellgrid/fields.hpp"
 #include "cellgrid/near.hpp"
-#include "kernels/fpm/mls.hpp"
+#include "kernels/fpm/stencils/mls.hpp"
 
 namespace freshet::fpm {
 

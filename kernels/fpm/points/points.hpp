@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "cellgrid/fields.hpp"
-#include "kernels/fpm/transfer.hpp"
-#include "kernels/fpm/voronoi.hpp"
+#include "kernels/fpm/cells/voronoi.hpp"
+#include "kernels/fpm/points/transfer.hpp"
 
 namespace freshet::fpm {
 

@@ -5,7 +5,7 @@
 #include <type_traits>
 
 #include "cellgrid/vec.hpp"
-#include "kernels/fpm/soft.hpp"
+#include "kernels/fpm/stencils/soft.hpp"
 
 namespace freshet::fpm {
 

@@ -7,10 +7,10 @@
 // Viscosity taken implicitly: v* = ... + tau nu lap v* (viscosity.hpp). The term - rho nu div v* that (5.8) has in p then is left out: with it
 // still water is not stable (e-fold in 0.15 s at nu = 1 m2/s).
 #pragma once
-#include "kernels/fpm/elliptic.hpp"
-#include "kernels/fpm/stencils.hpp"
+#include "kernels/fpm/pressure/elliptic.hpp"
+#include "kernels/fpm/pressure/viscosity.hpp"
+#include "kernels/fpm/stencils/stencils.hpp"
 #include "kernels/fpm/tank.hpp"
-#include "kernels/fpm/viscosity.hpp"
 
 namespace freshet::fpm {
 

@@ -1,8 +1,8 @@
-#include "kernels/fpm/supports.hpp"
+#include "kernels/fpm/cells/supports.hpp"
 
 #include <cmath>
 
-#include "kernels/fpm/mls.hpp"
+#include "kernels/fpm/stencils/mls.hpp"
 
 namespace freshet::fpm {
 namespace {

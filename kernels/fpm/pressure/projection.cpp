@@ -1,7 +1,7 @@
-#include "kernels/fpm/projection.hpp"
+#include "kernels/fpm/pressure/projection.hpp"
 
 #include "cellgrid/launch.hpp"
-#include "kernels/fpm/spray.hpp"
+#include "kernels/fpm/pressure/spray.hpp"
 
 namespace freshet::fpm {
 namespace {

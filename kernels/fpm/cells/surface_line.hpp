@@ -1,7 +1,7 @@
 // The free surface as a line: the Delaunay edges one of whose empty circles is as large as the surface's. Where it is met
 // by an upright line, and how far the water reaches. Only water that holds a triangle counts, so that lone drops do not.
 #pragma once
-#include "kernels/fpm/voronoi.hpp"
+#include "kernels/fpm/cells/voronoi.hpp"
 
 namespace freshet::fpm {
 

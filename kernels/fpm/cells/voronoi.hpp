@@ -5,7 +5,7 @@
 // by the sides on which its points were open when last looked at. At 1.3 dx a gap of 2.5 dx would be water at once.
 #pragma once
 #include "cellgrid/near.hpp"
-#include "kernels/fpm/cell.hpp"
+#include "kernels/fpm/cells/cell.hpp"
 #include "kernels/fpm/tank.hpp"
 
 namespace freshet::fpm {

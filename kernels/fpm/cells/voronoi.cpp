@@ -1,4 +1,4 @@
-#include "kernels/fpm/voronoi.hpp"
+#include "kernels/fpm/cells/voronoi.hpp"
 
 #include "cellgrid/launch.hpp"
 

@@ -7,7 +7,7 @@
 // first step, before any pressure is known, v* falls along walls too, or they would brake it and still water would not stay still.
 // Solved by BiCGStab; the rows have ones on the diagonal (Jacobi).
 #pragma once
-#include "kernels/fpm/stencils.hpp"
+#include "kernels/fpm/stencils/stencils.hpp"
 #include "kernels/fpm/tank.hpp"
 #include "kernels/linear/bicgstab.hpp"
 #include "kernels/linear/cluster_matrix.hpp"

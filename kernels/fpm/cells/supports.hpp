@@ -3,7 +3,7 @@
 // with the slope of the very count in place of d n / h; the fixed point h := h (n0 / n)^(1/2) swings for ever on disordered points) from h0,
 // held between 0.8 and 1.5 h0. As printed, (5.21) settles at h ~ n^-1/4 and not at n0 neighbours. Reads positions [m]; writes h [m].
 #pragma once
-#include "kernels/fpm/voronoi.hpp"
+#include "kernels/fpm/cells/voronoi.hpp"
 
 namespace freshet::fpm {
 

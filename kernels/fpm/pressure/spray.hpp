@@ -3,7 +3,7 @@
 // than they and the points around were before it, in flight or not (by Bernoulli a free surface keeps its speed): else ragged shreds throw
 // single points at several times their speed.
 #pragma once
-#include "kernels/fpm/projection.hpp"
+#include "kernels/fpm/pressure/projection.hpp"
 
 namespace freshet::fpm {
 

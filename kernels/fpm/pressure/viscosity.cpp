@@ -1,4 +1,4 @@
-#include "kernels/fpm/viscosity.hpp"
+#include "kernels/fpm/pressure/viscosity.hpp"
 
 #include "cellgrid/launch.hpp"
 

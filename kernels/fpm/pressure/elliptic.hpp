@@ -5,7 +5,7 @@
 // Where psi is given the row is psi_i = that. Without any such point constants are free: the system is A + 1 1^T / n, which has the
 // bordered system's solution, and the mean is taken off. Solved by BiCGStab, preconditioned on a mesh, or where supports differ by bins.
 #pragma once
-#include "kernels/fpm/stencils.hpp"
+#include "kernels/fpm/stencils/stencils.hpp"
 #include "kernels/linear/bicgstab.hpp"
 #include "kernels/linear/bin_multigrid.hpp"
 #include "kernels/linear/point_mesh.hpp"

@@ -1,4 +1,4 @@
-#include "kernels/fpm/elliptic.hpp"
+#include "kernels/fpm/pressure/elliptic.hpp"
 
 #include "cellgrid/launch.hpp"
 

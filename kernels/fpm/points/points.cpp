@@ -1,8 +1,8 @@
-#include "kernels/fpm/points.hpp"
+#include "kernels/fpm/points/points.hpp"
 
 #include "cellgrid/launch.hpp"
-#include "kernels/fpm/holding.hpp"
-#include "kernels/fpm/merging.hpp"
+#include "kernels/fpm/points/holding.hpp"
+#include "kernels/fpm/points/merging.hpp"
 #include "kernels/water/ids.hpp"
 
 namespace freshet::fpm {

@@ -1,4 +1,4 @@
-#include "kernels/fpm/transfer.hpp"
+#include "kernels/fpm/points/transfer.hpp"
 
 #include "cellgrid/launch.hpp"
 

@@ -3,7 +3,7 @@
 #pragma once
 #include "cellgrid/clusters.hpp"
 #include "cellgrid/near.hpp"
-#include "kernels/fpm/mls.hpp"
+#include "kernels/fpm/stencils/mls.hpp"
 
 namespace freshet::fpm {
 

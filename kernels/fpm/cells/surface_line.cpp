@@ -1,4 +1,4 @@
-#include "kernels/fpm/surface_line.hpp"
+#include "kernels/fpm/cells/surface_line.hpp"
 
 namespace freshet::fpm {
 namespace {
