@@ -8,7 +8,7 @@
 
 #include "cellgrid/runtime.hpp"
 #include "kernels/linear/cg.hpp"
-#include "kernels/linear/particle_mesh.hpp"
+#include "kernels/linear/mesh/particle_mesh.hpp"
 #include "kernels/sisph/pairs/coefficients.hpp"
 #include "src/run/fastest.hpp"
 #include "src/run/peaks.hpp"

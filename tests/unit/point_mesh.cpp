@@ -1,5 +1,5 @@
 // The mesh preconditioner of scattered points: its symmetry, given points, free constants, and the same bits with any number of threads.
-#include "kernels/linear/point_mesh.hpp"
+#include "kernels/linear/mesh/point_mesh.hpp"
 
 #include <catch2/catch.hpp>
 

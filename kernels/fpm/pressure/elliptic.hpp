@@ -7,8 +7,8 @@
 #pragma once
 #include "kernels/fpm/stencils/stencils.hpp"
 #include "kernels/linear/bicgstab.hpp"
-#include "kernels/linear/bin_multigrid.hpp"
-#include "kernels/linear/point_mesh.hpp"
+#include "kernels/linear/bins/bin_multigrid.hpp"
+#include "kernels/linear/mesh/point_mesh.hpp"
 
 namespace freshet::fpm {
 

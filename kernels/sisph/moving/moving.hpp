@@ -13,7 +13,7 @@
 
 #include "kernels/ground/bed_spline.hpp"
 #include "kernels/linear/cg.hpp"
-#include "kernels/linear/particle_mesh.hpp"
+#include "kernels/linear/mesh/particle_mesh.hpp"
 #include "kernels/sisph/moving/followers.hpp"
 #include "kernels/sisph/moving/paths.hpp"
 #include "kernels/sisph/pairs/geometry.hpp"

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "kernels/linear/cg.hpp"
-#include "kernels/linear/particle_mesh.hpp"
+#include "kernels/linear/mesh/particle_mesh.hpp"
 #include "kernels/sisph/pairs/coefficients.hpp"
 
 namespace freshet::sisph {

@@ -1,4 +1,4 @@
-#include "kernels/linear/bin_multigrid.hpp"
+#include "kernels/linear/bins/bin_multigrid.hpp"
 
 #include <utility>
 

@@ -1,6 +1,6 @@
-#include "kernels/linear/particle_mesh.hpp"
+#include "kernels/linear/mesh/particle_mesh.hpp"
 
-#include "kernels/linear/mesh_passes.hpp"
+#include "kernels/linear/mesh/mesh_passes.hpp"
 
 namespace freshet::linear {
 namespace {

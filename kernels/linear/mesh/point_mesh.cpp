@@ -1,6 +1,6 @@
-#include "kernels/linear/point_mesh.hpp"
+#include "kernels/linear/mesh/point_mesh.hpp"
 
-#include "kernels/linear/mesh_passes.hpp"
+#include "kernels/linear/mesh/mesh_passes.hpp"
 
 namespace freshet::linear {
 namespace {

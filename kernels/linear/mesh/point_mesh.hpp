@@ -4,7 +4,7 @@
 // where row i is about -s_i lap and d_i is the part of its entries that lies on given points (mass by which nodes near them are held).
 // Where constants are free the mesh sees r without its weighted mean.
 #pragma once
-#include "kernels/linear/mesh_correction.hpp"
+#include "kernels/linear/mesh/mesh_correction.hpp"
 
 namespace freshet::linear {
 

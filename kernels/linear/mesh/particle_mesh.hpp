@@ -4,7 +4,7 @@
 // m_i = 0 (dry) left out; B: one V-cycle of the 5-point system with mass sum_i P m_i and conductance k sum_i P m_i H_i / spacing^2 along
 // each edge, that is the lumped Galerkin form of m - div k H grad over the wet particles, so shores need nothing else.
 #pragma once
-#include "kernels/linear/mesh_correction.hpp"
+#include "kernels/linear/mesh/mesh_correction.hpp"
 
 namespace freshet::linear {
 

@@ -1,7 +1,7 @@
 // The passes of MeshCorrection from points to its nodes, for what functions of the point its users carry.
 #pragma once
 #include "cellgrid/launch.hpp"
-#include "kernels/linear/mesh_correction.hpp"
+#include "kernels/linear/mesh/mesh_correction.hpp"
 
 namespace freshet::linear {
 

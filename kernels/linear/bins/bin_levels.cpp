@@ -4,7 +4,7 @@
 #include <string>
 
 #include "cellgrid/launch.hpp"
-#include "kernels/linear/bin_multigrid.hpp"
+#include "kernels/linear/bins/bin_multigrid.hpp"
 
 namespace freshet::linear {
 namespace {

@@ -6,7 +6,7 @@
 // results do not depend on the number of threads. Templates are defined in mesh_passes.hpp, for the files that use them.
 #pragma once
 #include "cellgrid/near.hpp"
-#include "kernels/linear/box_multigrid.hpp"
+#include "kernels/linear/mesh/box_multigrid.hpp"
 
 namespace freshet::linear {
 

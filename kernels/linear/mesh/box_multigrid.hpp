@@ -4,7 +4,7 @@
 // Two damped Jacobi sweeps before and after, bilinear interpolation to every second node, its transpose as restriction, and on the
 // coarse level the 5-point part of P^T A P. Halved until one node is left: no direct solver. Rows of nodes are contiguous with a
 // halo of one node, so that sweeps run over them without conditions; each row is one index of a launch, the result does not depend on
-// the number of threads. For preconditioners (kernels/linear/mesh_correction.hpp).
+// the number of threads. For preconditioners (kernels/linear/mesh/mesh_correction.hpp).
 #pragma once
 #include <vector>
 

@@ -1,10 +1,10 @@
-#include "kernels/linear/mesh_correction.hpp"
+#include "kernels/linear/mesh/mesh_correction.hpp"
 
 #include <cmath>
 
 #include "cellgrid/clusters.hpp"
 #include "cellgrid/launch.hpp"
-#include "kernels/linear/mesh_passes.hpp"
+#include "kernels/linear/mesh/mesh_passes.hpp"
 
 namespace freshet::linear {
 namespace {

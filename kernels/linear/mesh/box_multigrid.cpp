@@ -1,4 +1,4 @@
-#include "kernels/linear/box_multigrid.hpp"
+#include "kernels/linear/mesh/box_multigrid.hpp"
 
 #include <utility>
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "kernels/linear/bin_levels.hpp"
+#include "kernels/linear/bins/bin_levels.hpp"
 
 namespace freshet::linear {
 
