@@ -29,7 +29,8 @@ void PieceBins::span(const std::vector<Piece>& pieces, double finest) {
   double largest = 0;
   for (const Piece& s : pieces)
     for (const Vec<double, 2>& p : {s.a, s.b}) {
-      bounds_ = {std::min(bounds_.xlo, p.x), std::max(bounds_.xhi, p.x), std::min(bounds_.ylo, p.y), std::max(bounds_.yhi, p.y)};
+      bounds_ = {std::min(bounds_.xlo, p.x), std::max(bounds_.xhi, p.x), std::min(bounds_.ylo, p.y),
+                 std::max(bounds_.yhi, p.y)};
       largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
     }
   const double width = bounds_.xhi - bounds_.xlo, height = bounds_.yhi - bounds_.ylo;
@@ -56,7 +57,8 @@ void PieceBins::for_each_crossed(const Piece& s, const Visit& visit) const {
   }
 }
 
-PieceBins::PieceBins(const std::vector<Piece>& pieces, double finest) : size_(static_cast<int>(pieces.size())) {
+PieceBins::PieceBins(const std::vector<Piece>& pieces, double finest)
+    : size_(static_cast<int>(pieces.size())) {
   if (pieces.empty()) return;
   span(pieces, finest);
   std::vector<int> first(static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_) + 1, 0);

@@ -1,6 +1,6 @@
-// Pieces of lines by place: a lattice of cells over all of them, and for each cell the list of those that cross it.
-// A query is a box; it reads the cells that the box touches, so that it costs what is near, however long the
-// coast is. Made once, on the host.
+// Pieces of lines by place: a lattice of cells over all of them, and for each cell a list of those that cross
+// it. A query is a box; it reads the cells that the box touches, so that it costs what is near, however long
+// the coast is. Made once, on the host.
 #pragma once
 #include <limits>
 #include <vector>
@@ -117,8 +117,8 @@ class PieceBins {
 };
 
 template <class Pieces, int D>
-KOKKOS_INLINE_FUNCTION NearestPiece nearest_piece(const Pieces& pieces, const PieceBins& bins, const Vec<double, D>& p,
-                                                  double reach) {
+KOKKOS_INLINE_FUNCTION NearestPiece nearest_piece(const Pieces& pieces, const PieceBins& bins,
+                                                  const Vec<double, D>& p, double reach) {
   constexpr double more = 1 + 1e-6;  // than the tie
   NearestPiece nearest(reach);
   bins.for_each(box_around(p, more * reach), [&](int k) { nearest.look_at(k, pieces(k), p); });

@@ -12,8 +12,8 @@ constexpr double cell = 4;          // x spacing: of the bins of pieces, as wide
 // Positive where the water is inside the corner (less than 180 degrees).
 double turn_between(const Piece& s, const Piece& t) { return turn(s.tangent, t.tangent); }
 
-// Projector of a point between two pieces: the eigenvalues of n1 n1^T + n2 n2^T cut at one, so that it turns from
-// n n^T (straight wall) to the identity (right corner: the image through it moves exactly opposite).
+// Projector of a point between two pieces: the eigenvalues of n1 n1^T + n2 n2^T cut at one, so that it turns
+// from n n^T (straight wall) to the identity (right corner: the image through it moves exactly opposite).
 WallPoint corner_point(const Vec<double, 2>& x, const Piece& s, const Piece& t, int piece) {
   const Vec<double, 2> sum = s.normal + t.normal;
   const double length = std::hypot(sum.x, sum.y);
@@ -21,7 +21,8 @@ WallPoint corner_point(const Vec<double, 2>& x, const Piece& s, const Piece& t, 
   const double nx = sum.x / length, ny = sum.y / length, cosine = dot(s.normal, t.normal);
   const double across = std::fmin(1.0, 1 + cosine), along = std::fmin(1.0, 1 - cosine);
   return {{x.x, x.y},
-          {across * nx * nx + along * ny * ny, (across - along) * nx * ny, across * ny * ny + along * nx * nx},
+          {across * nx * nx + along * ny * ny, (across - along) * nx * ny,
+           across * ny * ny + along * nx * nx},
           1,
           piece};
 }
@@ -39,17 +40,19 @@ double face_step(const Piece& s, double spacing) {
   return s.length / std::max(1, static_cast<int>(std::lround(2 * s.length / spacing)));
 }
 
-// Wall points about half a spacing apart along piece k and in the corner at its end; each is worth as much as a whole half
-// spacing but where the polyline's own pieces are much shorter.
-// `extra`: at corners of less than 180 degrees each wall goes on by half a spacing more.
-void lay_face(std::vector<WallPiece>& all, int k, double spacing, bool extra, std::vector<WallPoint>& points) {
+// Wall points about half a spacing apart along piece k and in the corner at its end; each is worth as much as
+// a whole half spacing but where the polyline's own pieces are much shorter. `extra`: at corners of less than
+// 180 degrees each wall goes on by half a spacing more.
+void lay_face(std::vector<WallPiece>& all, int k, double spacing, bool extra,
+              std::vector<WallPoint>& points) {
   const auto add = [&](WallPoint point, double length) {
     if (length < 0.4 * spacing) point.share = length / (0.5 * spacing);
     points.push_back(point);
   };
   WallPiece& s = all[k];
   const double step = face_step(s, spacing);
-  for (double along = step; along < s.length - 0.5 * step; along += step) add(face_point(s, along, 0, k), step);
+  for (double along = step; along < s.length - 0.5 * step; along += step)
+    add(face_point(s, along, 0, k), step);
   if (s.after >= 0) {
     WallPiece& next = all[s.after];
     const double beyond = face_step(next, spacing);
@@ -77,13 +80,16 @@ double own_part(const WallGeometry& g, int k, const Point& x, double spacing) {
   return other_within(own + tie) ? 0.5 : 1;
 }
 
-// Rows of points behind piece k, on the lattice of its own cells; round corners with the water inside they go on as far as
-// they go deep. Along curves the outer rows are longer (the inner ones shorter) by depth x tan(turn/2) at each end.
+// Rows of points behind piece k, on the lattice of its own cells; round corners with the water inside they go
+// on as far as they go deep. Along curves the outer rows are longer (the inner ones shorter) by depth x
+// tan(turn/2) at each end.
 void lay_rows(WallGeometry& g, int k, const WallOptions& o) {
-  const Piece &s = g.pieces[k], &previous = g.pieces[std::max(s.before, 0)], &next = g.pieces[std::max(s.after, 0)];
+  const Piece& s = g.pieces[k];
+  const Piece &previous = g.pieces[std::max(s.before, 0)], &next = g.pieces[std::max(s.after, 0)];
   const int cells = std::max(1, static_cast<int>(std::lround(s.length / o.spacing)));
   const int rows = static_cast<int>(std::ceil(o.reach / o.spacing));
-  const double at_a = s.before >= 0 ? turn_between(previous, s) : 0, at_b = s.after >= 0 ? turn_between(s, next) : 0;
+  const double at_a = s.before >= 0 ? turn_between(previous, s) : 0;
+  const double at_b = s.after >= 0 ? turn_between(s, next) : 0;
   const double step = s.length / cells;
   double stretch = 0;
   for (const double turn : {at_a, at_b}) stretch += std::abs(turn) < small_turn ? std::tan(turn / 2) : 0;
@@ -119,8 +125,9 @@ void lay_end(const Piece& s, int k, const WallOptions& o, std::vector<WallPoint>
 
 }  // namespace
 
-WallGeometry lay_walls(int dimension, const std::vector<Polyline>& lines, const WallOptions& o, const Point& inside) {
-  const std::vector<Piece> pieces = dimension == 1 ? ends_of(lines, inside[0]) : pieces_of(lines, 1e-6 * o.spacing);
+WallGeometry lay_walls(int dimension, const std::vector<Polyline>& lines, const WallOptions& o,
+                       const Point& inside) {
+  const auto pieces = dimension == 1 ? ends_of(lines, inside[0]) : pieces_of(lines, 1e-6 * o.spacing);
   WallGeometry g{{}, {}, PieceBins(pieces, cell * o.spacing)};
   for (const Piece& piece : pieces) g.pieces.push_back({piece});
   for (int k = 0; k < g.bins.size(); ++k) {

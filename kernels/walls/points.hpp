@@ -7,7 +7,8 @@ namespace freshet {
 enum class WallKind { none, vbp, mvbp, rows, mirror };
 
 struct WallPiece : Piece {
-  double beyond_a = 0, beyond_b = 0;  // m, how far beyond a and b its images count: behind corners of less than 180 degrees
+  // m, how far beyond a and b its images count: behind corners of less than 180 degrees
+  double beyond_a = 0, beyond_b = 0;
 };
 
 struct WallPoint {
@@ -31,7 +32,8 @@ struct WallOptions {
 };
 
 // Lines with the water on their left. inside: a point of the water, which tells the side of a 1-D wall.
-WallGeometry lay_walls(int dimension, const std::vector<Polyline>& lines, const WallOptions& options, const Point& inside);
+WallGeometry lay_walls(int dimension, const std::vector<Polyline>& lines, const WallOptions& options,
+                       const Point& inside);
 
 // Whether mirror images are exact for these polylines: every corner is a right one with the water inside.
 bool only_right_corners(const std::vector<Polyline>& lines);

@@ -49,7 +49,9 @@ std::vector<Piece> pieces_of(const std::vector<Polyline>& lines, double toleranc
   return pieces;
 }
 
-double turn(const Vec<double, 2>& from, const Vec<double, 2>& to) { return std::atan2(cross(from, to), dot(from, to)); }
+double turn(const Vec<double, 2>& from, const Vec<double, 2>& to) {
+  return std::atan2(cross(from, to), dot(from, to));
+}
 
 double distance(const Point& p, const Piece& piece) {
   const Vec<double, 2> at = to_vec<2>(p), from = from_nearest(piece, at, foot_on(piece, at).along);
@@ -58,7 +60,8 @@ double distance(const Point& p, const Piece& piece) {
 
 double distance(const Point& p, const Polyline& line) {
   double least = distance(p, piece_between(line[0], line[0]));
-  for (std::size_t k = 0; k + 1 < line.size(); ++k) least = std::min(least, distance(p, piece_between(line[k], line[k + 1])));
+  for (std::size_t k = 0; k + 1 < line.size(); ++k)
+    least = std::min(least, distance(p, piece_between(line[k], line[k + 1])));
   return least;
 }
 

@@ -1,5 +1,6 @@
-// The geometry of lines, for walls, open boundaries and regions alike: straight pieces and how they are joined, feet and
-// distances, turns, what is nearest and what lies inside. Of walls and open boundaries the water is on the left.
+// The geometry of lines, for walls, open boundaries and regions alike: straight pieces and how they are
+// joined, feet and distances, turns, what is nearest and what lies inside. Of walls and open boundaries the
+// water is on the left.
 #pragma once
 #include "cellgrid/box.hpp"
 #include "kernels/walls/point.hpp"
@@ -46,14 +47,15 @@ KOKKOS_FORCEINLINE_FUNCTION bool past_free_end(const Piece& s, double along) {
   return (s.before < 0 && along < 0) || (s.after < 0 && along > s.length);
 }
 
-// The nearest of the pieces looked at, within a reach; beside a free end a piece is not seen. Of two that share the nearest end
-// it is the one whose line is farther away, which tells on which side the place is.
+// The nearest of the pieces looked at, within a reach; beside a free end a piece is not seen. Of two that
+// share the nearest end it is the one whose line is farther away, which tells on which side the place is.
 struct NearestPiece {
   double distance2, tie;  // m2
   int piece = -1;
   Foot<double> foot{};
 
-  explicit KOKKOS_INLINE_FUNCTION NearestPiece(double reach) : distance2(reach * reach), tie(1e-9 * distance2) {}
+  explicit KOKKOS_INLINE_FUNCTION NearestPiece(double reach)
+      : distance2(reach * reach), tie(1e-9 * distance2) {}
   template <int D>
   KOKKOS_INLINE_FUNCTION void look_at(int k, const Piece& s, const Vec<double, D>& p) {
     const Foot<double> f = foot_on(s, p);
@@ -74,12 +76,13 @@ KOKKOS_FORCEINLINE_FUNCTION bool crosses(const Piece& s, const Vec<double, 2>& p
 }
 
 // Whether the ray from p towards greater x crosses the side from a to b: an odd number of them encloses p.
-KOKKOS_FORCEINLINE_FUNCTION bool crosses_ray(const Vec<double, 2>& a, const Vec<double, 2>& b, const Vec<double, 2>& p) {
+KOKKOS_FORCEINLINE_FUNCTION bool crosses_ray(const Vec<double, 2>& a, const Vec<double, 2>& b,
+                                             const Vec<double, 2>& p) {
   if ((b.y > p.y) == (a.y > p.y)) return false;
   return p.x < b.x + (p.y - b.y) / (a.y - b.y) * (a.x - b.x);
 }
 
-// ---- On the host ----------------------------------------------------------------------------------------------------------
+// ---- On the host ------------------------------------------------------------------------------------------
 bool meet(const Point& p, const Point& q, double tolerance);    // m
 bool is_closed(const Polyline& line, double tolerance = 0);     // m, between its ends
 
@@ -88,11 +91,12 @@ Piece piece_between(const Point& a, const Point& b);
 void append_pieces(const Polyline& line, bool closed, std::vector<Piece>& pieces);
 std::vector<Piece> pieces_of(const std::vector<Polyline>& lines, double tolerance = 0);
 
-// rad, from one direction to another: positive to the left, where corners hold less than 180 degrees of water.
+// rad, from one direction to another: positive to the left, where corners hold less than 180 degrees of
+// water.
 double turn(const Vec<double, 2>& from, const Vec<double, 2>& to);
 
 double distance(const Point& p, const Piece& piece);    // m
-double distance(const Point& p, const Polyline& line);  // m, to the nearest of its pieces; of one point: to that
+double distance(const Point& p, const Polyline& line);  // m, to its nearest piece; of one point: to that
 
 // Of polygons, whose last corner is joined to the first; it may be given twice.
 double signed_area(const Polyline& polygon);               // m2, positive counter-clockwise

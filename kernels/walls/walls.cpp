@@ -35,10 +35,12 @@ Box box_of(const std::vector<Polyline>& lines, double beyond) {
 }  // namespace
 
 template <int D>
-Walls<D>::Walls(const std::vector<Polyline>& lines, const WallOptions& options, const Point& inside, double support)
+Walls<D>::Walls(const std::vector<Polyline>& lines, const WallOptions& options, const Point& inside,
+                double support)
     : order_(D, options.spacing, box_of(lines, 8 * options.spacing)), near_(32, "walls::list", false), kind_(options.kind),
       stretch_(stretch_of(options.kind)),
-      // A virtual particle lies twice as far away as its wall point; a neighbour's image may stand right behind the wall.
+      // A virtual particle lies twice as far away as its wall point; a neighbour's image may stand right
+      // behind the wall.
       reach_(support / stretch_.factor[0]), depth_(2 * options.spacing) {
   const WallGeometry g = lay_walls(D, lines, options, inside);
   points_ = FieldSet(static_cast<int>(g.points.size()));
@@ -54,7 +56,8 @@ Walls<D>::Walls(const std::vector<Polyline>& lines, const WallOptions& options, 
   fill(points_.integer("piece", "1", Carry::sort), g.points, [](const WallPoint& w) { return w.piece; });
   number(points_.integer("id", "1", Carry::sort), points_.size());
   order_.sort(points_);
-  // Water alone decides what is near. With tiles of that size (most clusters' reach) water off the walls sees at once that none is.
+  // Water alone decides what is near. With tiles of that size (most clusters' reach) water off the walls sees
+  // at once that none is.
   constexpr double next_to_nothing = 1e-6, tile = 4;  // x spacing
   const Field<double> h = points_.real("h", "m", Carry::no);
   assign(h, next_to_nothing * options.spacing);
@@ -88,8 +91,8 @@ WallView<D> Walls<D>::view() const {
 
 namespace {
 
-// The largest h [m] of a particle and of the neighbours that reach it: their images stand no nearer than they do themselves.
-// Looked for where walls may be within that reach.
+// The largest h [m] of a particle and of the neighbours that reach it: their images stand no nearer than they
+// do themselves. Looked for where walls may be within that reach.
 template <int D>
 struct FeltLength {
   ClusterSet clusters;
@@ -133,10 +136,11 @@ void Walls<D>::find(const ClusterSet& clusters, const ListRequest<D>& water, con
 
 namespace {
 
-// Whether some lane stands behind the piece's line and nearer to it than a distance whose square is far2 [m2], by more than
-// rounding; free ends count as wall.
+// Whether some lane stands behind the piece's line and nearer to it than a distance whose square is far2
+// [m2], by more than rounding; free ends count as wall.
 template <int D>
-KOKKOS_FORCEINLINE_FUNCTION bool any_behind(const Piece& s, const Vec<Lane, D>& p, double slack, double far2) {
+KOKKOS_FORCEINLINE_FUNCTION bool any_behind(const Piece& s, const Vec<Lane, D>& p, double slack,
+                                            double far2) {
   const Foot<Lane> f = foot_on(s, p);
   const Vec<Lane, D> from = from_nearest(s, p, f.along);
   return any((f.off < Lane(slack)) & (dot(from, from) < Lane(far2)));
@@ -150,7 +154,8 @@ KOKKOS_INLINE_FUNCTION bool may_be_behind(const WallView<D>& walls, int cluster,
   bool behind = false;
   walls.near.for_each(cluster, [&](int k) {
     const int piece = walls.piece(k);
-    if (piece != last && !behind) behind = any_behind(walls.pieces(piece), here, ties * deepest, (1 + ties) * deepest * deepest);
+    if (piece != last && !behind)
+      behind = any_behind(walls.pieces(piece), here, ties * deepest, (1 + ties) * deepest * deepest);
     last = piece;
   });
   return behind;
@@ -158,7 +163,8 @@ KOKKOS_INLINE_FUNCTION bool may_be_behind(const WallView<D>& walls, int cluster,
 
 // Only the pieces near the position's cluster are looked at.
 template <int D>
-KOKKOS_INLINE_FUNCTION NearestPiece nearest_of(const WallView<D>& walls, int cluster, const Vec<double, D>& p, double deepest) {
+KOKKOS_INLINE_FUNCTION NearestPiece nearest_of(const WallView<D>& walls, int cluster, const Vec<double, D>& p,
+                                               double deepest) {
   int last = -1;
   NearestPiece nearest(deepest);
   walls.near.for_each(cluster, [&](int k) {

@@ -1,6 +1,6 @@
-// Solid walls along polylines, the water on their left. In all kinds but `mirror` a wall is a set of virtual particles that
-// copy the state of the fluid particle i that looks at them, with the velocity mirrored, v_k = v_i - 2 P v_i: a wall term
-// depends on i and the geometry alone.
+// Solid walls along polylines, the water on their left. In all kinds but `mirror` a wall is a set of virtual
+// particles that copy the state of the fluid particle i that looks at them, with the velocity mirrored,
+// v_k = v_i - 2 P v_i: a wall term depends on i and the geometry alone.
 //   vbp     x_k = x_i - 2 (x_i - x_w) for wall points x_w half a spacing apart, m_k = m_i (h0/h_i)^(D-1)   (thesis 1.2)
 //   mvbp    also x_k = x_i - 4 (x_i - x_w), and two points more at corners (thesis 1.3; corrected (1.8): SWE-FORMULAS 7)
 //   rows    fixed points on rows dx/2, 3 dx/2, ... behind the wall, m_k = rho_i x the area that a point stands for
@@ -106,8 +106,8 @@ struct WallView {
   }
   // d ln m_k / d ln rho_i: how far virtual masses follow the particle's own depth.
   KOKKOS_FORCEINLINE_FUNCTION double follows_depth() const { return !on || mirror ? 0.0 : rows ? 1.0 : (D - 1.0) / D; }
-  // How often a virtual particle at `s` times the distance of its wall point pushes. Rows push like real particles, whose own
-  // sums feel i too; the others push as the energy of i alone asks, since dx_k/dx_i = 1 - s.
+  // How often a virtual particle at `s` times the distance of its wall point pushes. Rows push like real
+  // particles, whose own sums feel i too; the others as the energy of i alone asks, since dx_k/dx_i = 1 - s.
   KOKKOS_FORCEINLINE_FUNCTION double pushes(double s) const { return rows ? 2.0 : s; }
 
   // 1 in the lanes that see the images behind the piece: past free ends, where openings begin, all do.
@@ -115,7 +115,8 @@ struct WallView {
   KOKKOS_FORCEINLINE_FUNCTION static Lane before(const WallPiece& s, const Vec<Lane, 2>& x) {
     constexpr double all = 1e300;  // m
     const Lane along = foot_on(s, x).along, from(s.before < 0 ? -all : -s.beyond_a);
-    return select((from < along) & (along < Lane(s.length + (s.after < 0 ? all : s.beyond_b))), Lane(1.0), Lane(0.0));
+    const Lane to(s.length + (s.after < 0 ? all : s.beyond_b));
+    return select((from < along) & (along < to), Lane(1.0), Lane(0.0));
   }
 
   // How far inside the water the foremost of a cluster's images stands [m]: negative behind the wall.
@@ -123,16 +124,16 @@ struct WallView {
     return largest(foot_on(s, image).off);
   }
 
-  // Whether the piece mirrors a particle to an image that stands no further than `limit` from it along the normal, measured
-  // from the wall: it is on the water's side, not beside the piece (in an opening next to it).
+  // Whether the piece mirrors a particle to an image that stands no further than `limit` from it along the
+  // normal, measured from the wall: it is on the water's side, not beside the piece (in an opening there).
   KOKKOS_FORCEINLINE_FUNCTION static bool mirrors(const WallPiece& s, const Vec<double, D>& x, double limit) {
     const Foot<double> f = foot_on(s, x);
     if constexpr (D == 1) return f.off < limit;
     return f.off > 0 && f.off < limit && f.along > -s.beyond_a && f.along < s.length + s.beyond_b;
   }
 
-  // mirror: calls see(image, weight, piece) for the images of a cluster in the walls near it; weight is 0 in lanes without
-  // one. The image sees the particles that the piece mirrors.
+  // mirror: calls see(image, weight, piece) for the images of a cluster in the walls near it; weight is 0 in
+  // lanes without one. The image sees the particles that the piece mirrors.
   template <class See>
   KOKKOS_INLINE_FUNCTION void for_each_image(int cluster, const Vec<Lane, D>& here, const See& see) const {
     constexpr int most = 24;  // pieces of wall within a support: two or three, many along a curve
@@ -187,12 +188,14 @@ class Walls {
   // inside: a point of the water, which tells the side of a 1-D wall. support: of the kernel, in units of h.
   Walls(const std::vector<Polyline>& lines, const WallOptions& options, const Point& inside, double support);
 
-  // Lists the wall points within reach of each cluster for h (1 + margin); of mirrors also those behind which images of larger
-  // neighbours reach further than the particle's own h. near: what was listed of the same water.
+  // Lists the wall points within reach of each cluster for h (1 + margin); of mirrors also those behind which
+  // images of larger neighbours reach further than the particle's own h. near: what was listed of the same
+  // water.
   void find(const ClusterSet& clusters, const ListRequest<D>& water, const NeighbourView& near);
 
-  // Puts particles that crossed a wall back: position and normal velocity reflected. clusters: those of the last find();
-  // only particles that were near a wall then are looked at, since none moves further than a fraction of h in a step.
+  // Puts particles that crossed a wall back: position and normal velocity reflected. clusters: those of the
+  // last find(); only particles that were near a wall then are looked at, since none moves further than a
+  // fraction of h in a step.
   void reflect(const ClusterSet& clusters, const VecField<double, D>& x, const VecField<double, D>& v,
                const VecField<double, D>& v_pred) const;
 

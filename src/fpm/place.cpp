@@ -75,7 +75,8 @@ std::vector<Node> nodes_of_polygon(const Scene& scene, const Body& body) {
   closed.push_back(closed.front());
   for (double y = box.ylo; y < box.yhi; y += dx)
     for (double x = box.xlo; x < box.xhi; x += dx)
-      if (encloses(closed, {x, y}) && distance({x, y}, closed) > off_outline * dx) nodes.push_back({{x, y}, true});
+      if (encloses(closed, {x, y}) && distance({x, y}, closed) > off_outline * dx)
+        nodes.push_back({{x, y}, true});
   return nodes;
 }
 

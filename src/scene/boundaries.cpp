@@ -50,11 +50,11 @@ bool bends_too_much(const std::vector<Point>& line) {
 
 // Whether what lies left of a piece is outside the domain.
 bool leads_out(const std::vector<Point>& line, const Scene& scene) {
-  const Domain& domain = scene.domain;
   for (std::size_t k = 1; k < line.size(); ++k) {
     const Piece piece = piece_between(line[k - 1], line[k]);
     const Vec<double, 2> left = 0.5 * (piece.a + piece.b) + 0.01 * scene.water.spacing * piece.normal;
-    if (left.x < domain.low[0] || left.x > domain.high[0] || left.y < domain.low[1] || left.y > domain.high[1]) return true;
+    const Point a = scene.domain.low, b = scene.domain.high;
+    if (left.x < a[0] || left.x > b[0] || left.y < a[1] || left.y > b[1]) return true;
   }
   return false;
 }

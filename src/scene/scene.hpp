@@ -111,7 +111,8 @@ struct Transect {
 };
 
 enum class Stabilisation { none, artificial_viscosity, lax_friedrichs, lax_friedrichs_muscl, two_shock, two_shock_muscl };
-// automatic: mirror images where every corner of the walls is a right one with the water inside, else rows. See kernels/walls/walls.hpp.
+// automatic: mirror images where every corner of the walls is a right one with the water inside, else rows.
+// See kernels/walls/walls.hpp.
 enum class Walling { automatic, none, vbp, mvbp, rows, mirror };
 enum class Acceleration { classical, variational };
 

@@ -15,7 +15,9 @@ using Boundary = freshet::OpenBoundary;
 constexpr double wall_cells = 8;      // a wall beside a buffer is so long
 constexpr double least_outward = 0.2;  // sine: a wall that meets the line at a smaller angle runs along it, not out of it
 
-bool meet(const Vec<double, 2>& a, const Point& b, double spacing) { return freshet::meet({a.x, a.y}, b, 1e-3 * spacing); }
+bool meet(const Vec<double, 2>& a, const Point& b, double spacing) {
+  return freshet::meet({a.x, a.y}, b, 1e-3 * spacing);
+}
 
 Vec<double, 2> outward(const Piece& piece) { return -1.0 * piece.normal; }
 
@@ -26,7 +28,8 @@ std::vector<Piece> pieces_of(const std::vector<Boundary>& boundaries) {
 }
 
 // The direction of a wall on its way to `end`, if it ends there.
-std::optional<Vec<double, 2>> wall_direction(const std::vector<Wall>& walls, const Vec<double, 2>& end, double spacing) {
+std::optional<Vec<double, 2>> wall_direction(const std::vector<Wall>& walls, const Vec<double, 2>& end,
+                                             double spacing) {
   for (const Wall& wall : walls) {
     const Polyline& line = wall.line;
     if (line.size() < 2) continue;
@@ -52,7 +55,8 @@ OpenLine<1> open_line(const Scene&, const std::vector<Piece>&, const Piece& piec
   return {{piece.a.x}, {piece.a.y > piece.b.y ? 1.0 : -1.0}, {0.0}, 1.0};
 }
 OpenLine<2> open_line(const Scene& scene, const std::vector<Piece>& pieces, const Piece& piece, Vec<double, 2>) {
-  return {piece.a, piece.normal, piece.tangent, piece.length, spread(scene, pieces, piece, false), spread(scene, pieces, piece, true)};
+  const double spread_a = spread(scene, pieces, piece, false), spread_b = spread(scene, pieces, piece, true);
+  return {piece.a, piece.normal, piece.tangent, piece.length, spread_a, spread_b};
 }
 
 // When what is imposed changes its slope.

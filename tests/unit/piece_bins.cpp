@@ -113,7 +113,8 @@ TEST_CASE("piece bins: boxes of no size on ends and middles of segments find the
 
 TEST_CASE("piece bins: one place, one line, no segments, places that are no numbers") {
   const double nan = std::nan("");
-  const PieceBins none, point({{{2, 3}, {2, 3}}, {{2, 3}, {2, 3}}}), level({{{0, 1}, {4, 1}}, {{4, 1}, {9, 1}}});
+  const PieceBins none, point({{{2, 3}, {2, 3}}, {{2, 3}, {2, 3}}});
+  const PieceBins level({{{0, 1}, {4, 1}}, {{4, 1}, {9, 1}}});
   CHECK(found(none, {-1e300, 1e300, -1e300, 1e300}).empty());
   CHECK_FALSE(none.any({-1, 1, -1, 1}, [](int) { return true; }));
   CHECK(found(point, box_around(V2{2.1, 3.1}, 0.2)) == std::vector<int>{0, 1});

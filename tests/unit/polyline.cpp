@@ -15,7 +15,7 @@ namespace {
 
 const double pi = std::acos(-1.0);
 const Polyline square{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-const Polyline notched{{0, 0}, {4, 0}, {4, 3}, {2, 1}, {0, 3}};  // a V cut into a box from above, down to (2, 1)
+const Polyline notched{{0, 0}, {4, 0}, {4, 3}, {2, 1}, {0, 3}};  // a V cut into a box from above
 
 Polyline closed(Polyline line) {
   line.push_back(line.front());
@@ -26,7 +26,8 @@ Polyline reversed(Polyline line) {
   return line;
 }
 
-// Counter-clockwise round the centre, radii between 0.2 and 1: concave, sharp at most corners, never across itself.
+// Counter-clockwise round the centre, radii between 0.2 and 1: concave, with sharp corners, never across
+// itself.
 Polyline star(int corners, const Point& centre, unsigned seed) {
   test::Random random(seed);
   Polyline line;
@@ -41,7 +42,8 @@ Polyline star(int corners, const Point& centre, unsigned seed) {
 double windings(const Polyline& polygon, const Point& p) {
   double sum = 0;
   for (std::size_t k = 0; k < polygon.size(); ++k)
-    sum += turn(to_vec<2>(polygon[k]) - to_vec<2>(p), to_vec<2>(polygon[(k + 1) % polygon.size()]) - to_vec<2>(p));
+    sum += turn(to_vec<2>(polygon[k]) - to_vec<2>(p),
+                to_vec<2>(polygon[(k + 1) % polygon.size()]) - to_vec<2>(p));
   return sum / (2 * pi);
 }
 
@@ -58,7 +60,8 @@ NearestPiece nearest(const std::vector<Piece>& pieces, const Point& p, double re
 }  // namespace
 
 TEST_CASE("polyline: pieces know their ends, directions and what they are joined to") {
-  const std::vector<Piece> open = pieces_of({{{1, 1}, {4, 5}, {4, 4}}}), round = pieces_of({closed(square), {{7, 0}, {8, 0}}});
+  const std::vector<Piece> open = pieces_of({{{1, 1}, {4, 5}, {4, 4}}});
+  const std::vector<Piece> round = pieces_of({closed(square), {{7, 0}, {8, 0}}});
   REQUIRE(open.size() == 2);
   CHECK(open[0].length == 5);
   CHECK(open[0].tangent.x == Approx(0.6));
@@ -117,7 +120,8 @@ TEST_CASE("polyline: lines of one point and pieces of no length") {
 TEST_CASE("polyline: feet and distances against many points of the piece") {
   test::Random random(3);
   for (int n = 0; n < 200; ++n) {
-    const Point a{random(-1, 1), random(-1, 1)}, b{random(-1, 1), random(-1, 1)}, p{random(-2, 2), random(-2, 2)};
+    const Point a{random(-1, 1), random(-1, 1)}, b{random(-1, 1), random(-1, 1)};
+    const Point p{random(-2, 2), random(-2, 2)};
     const Piece piece = piece_between(a, b);
     constexpr int steps = 1000;
     double least = 1e300;
@@ -152,7 +156,7 @@ TEST_CASE("polyline: turns are positive to the left, where a corner holds less w
   }
 }
 
-TEST_CASE("polyline: the nearest piece tells the side, at sharp corners too, in whatever order pieces are asked") {
+TEST_CASE("polyline: the nearest piece tells the side, at sharp corners too, whatever the order of asking") {
   test::Random random(11);
   for (unsigned seed = 0; seed < 30; ++seed) {
     const Polyline line = star(3 + static_cast<int>(seed % 9), {0, 0}, seed);
@@ -163,7 +167,8 @@ TEST_CASE("polyline: the nearest piece tells the side, at sharp corners too, in 
       CAPTURE(seed, p[0], p[1]);
       REQUIRE(found.piece >= 0);
       REQUIRE(found.piece == other.piece);
-      REQUIRE(std::sqrt(found.distance2) == Approx(distance(p, closed(line))).margin(2e-4));  // ties: 1e-9 reach^2
+      // Ties are as wide as 1e-9 reach^2.
+      REQUIRE(std::sqrt(found.distance2) == Approx(distance(p, closed(line))).margin(2e-4));
       REQUIRE((found.foot.off > 0) == encloses(line, p));
     }
   }
@@ -193,14 +198,14 @@ TEST_CASE("polyline: nothing is nearest beyond the reach or beside a free end") 
   CHECK(nearest(wall, {std::nan(""), 0}, 1).piece == -1);
 }
 
-TEST_CASE("polyline: a polygon encloses its low edges and not its high ones, so that neighbours share no place") {
+TEST_CASE("polyline: a polygon encloses its low edges and not its high ones: neighbours share no place") {
   CHECK(encloses(square, {0.5, 0}));
   CHECK(encloses(square, {0, 0.5}));
   CHECK(encloses(square, {0, 0}));
   CHECK_FALSE(encloses(square, {0.5, 1}));
   CHECK_FALSE(encloses(square, {1, 0.5}));
   CHECK_FALSE(encloses(square, {1, 1}));
-  // Four triangles about the middle, of numbers that round nothing: each place of the square lies in one of them.
+  // Four triangles about the middle, of numbers that round nothing: each place lies in one of them.
   const Point middle{0.5, 0.5};
   int missed = 0;
   for (int i = 0; i < 16; ++i)

@@ -16,7 +16,8 @@ constexpr double half_pi = 1.57079632679489662;
 double size_of(const std::vector<Polyline>& lines) {
   double size = 0;
   for (const Polyline& line : lines)
-    for (const Point& p : line) size = std::max({size, std::abs(p[0] - lines[0][0][0]), std::abs(p[1] - lines[0][0][1])});
+    for (const auto& [x, y] : line)
+      size = std::max({size, std::abs(x - lines[0][0][0]), std::abs(y - lines[0][0][1])});
   return size;
 }
 

@@ -86,8 +86,8 @@ KOKKOS_FORCEINLINE_FUNCTION Sym<double, 2> invert(Vec<double, 2>) { return {-1.0
 // The wall's nearest point; at a bend with the water outside (270 degrees) the plane stands across the line to it. A place beside
 // an end of an open chain sees none.
 template <int D>
-KOKKOS_FORCEINLINE_FUNCTION typename MirrorWalls<D>::Plane MirrorWalls<D>::nearest(const Box& box, const Vec<double, 2>& x,
-                                                                                   int& chain) const {
+KOKKOS_FORCEINLINE_FUNCTION auto MirrorWalls<D>::nearest(const Box& box, const Vec<double, 2>& x,
+                                                         int& chain) const -> Plane {
   constexpr int none = 0x7fffffff;
   Plane best;
   double least = 1e300;  // m2
@@ -122,7 +122,8 @@ KOKKOS_FORCEINLINE_FUNCTION typename MirrorWalls<D>::Plane MirrorWalls<D>::neare
 template <int D>
 KOKKOS_INLINE_FUNCTION bool MirrorWalls<D>::near(const Vec<double, D>& x, double distance) const {
   if constexpr (D == 1)
-    return corner_bins_.any(box_around(x, distance), [&](int k) { return ::fabs(x.x - corners_(k).x.x) < distance; });
+    return corner_bins_.any(box_around(x, distance),
+                            [&](int k) { return ::fabs(x.x - corners_(k).x.x) < distance; });
   else
     return bins_.any(box_around(x, distance), [&](int k) {
       const Vec<double, 2> from = from_nearest(pieces_(k), x, foot_on(pieces_(k), x).along);
@@ -162,7 +163,8 @@ template <int D>
 KOKKOS_INLINE_FUNCTION bool MirrorWalls<D>::part(const Vec<double, D>& xi, const Vec<double, D>& xj) const {
   const Box way = box_between(xi, xj);
   if constexpr (D == 1)
-    return corner_bins_.any(way, [&](int k) { return (xi.x - corners_(k).x.x) * (xj.x - corners_(k).x.x) < 0; });
+    return corner_bins_.any(
+        way, [&](int k) { return (xi.x - corners_(k).x.x) * (xj.x - corners_(k).x.x) < 0; });
   else
     return bins_.any(way, [&](int k) { return crosses(pieces_(k), xi, xj); });
 }

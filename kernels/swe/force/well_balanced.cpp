@@ -53,7 +53,8 @@ struct BalancedBed {
     BedPush<D> push = sum(c, x, b, inv_h, [](int) { return true; });
     if (walls.on && walls.mirror)
       walls.for_each_image(c, x, [&](const Image<D>& image, Lane weight, const WallPiece& piece) {
-        const BedPush<D> seen = sum(c, image(x), b, inv_h, [&](int j) { return walls.mirrors(piece, at(p.x, j), 1e300); });
+        const BedPush<D> seen =
+            sum(c, image(x), b, inv_h, [&](int j) { return walls.mirrors(piece, at(p.x, j), 1e300); });
         push.t += weight * image.turn_back(seen.t);
         push.seen += weight * seen.seen;
       });
