@@ -1,5 +1,7 @@
 // Small vectors and symmetric matrices in D dimensions, of any value type V (double or pack).
 #pragma once
+#include <array>
+
 #include "cellgrid/types.hpp"
 
 namespace freshet {
@@ -33,6 +35,17 @@ struct Vec<V, 3> {
   friend KOKKOS_FORCEINLINE_FUNCTION Vec operator-(const Vec& a, const Vec& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
   friend KOKKOS_FORCEINLINE_FUNCTION Vec operator*(const V& s, const Vec& a) { return {s * a.x, s * a.y, s * a.z}; }
 };
+
+// x and, in 2-D, y.
+template <int D>
+KOKKOS_FORCEINLINE_FUNCTION Vec<double, D> to_vec(double x, double y) {
+  if constexpr (D == 1) return {x};
+  else return {x, y};
+}
+template <int D>
+Vec<double, D> to_vec(const std::array<double, 2>& a) {
+  return to_vec<D>(a[0], a[1]);
+}
 
 // f of each number, of several vectors or matrices number by number.
 template <class F, class... V>

@@ -8,8 +8,8 @@
 
 #include "cellgrid/runtime.hpp"
 #include "kernels/linear/cg.hpp"
-#include "kernels/linear/particle_mesh.hpp"
-#include "kernels/sisph/coefficients.hpp"
+#include "kernels/linear/mesh/particle_mesh.hpp"
+#include "kernels/sisph/pairs/coefficients.hpp"
 #include "src/run/fastest.hpp"
 #include "src/run/peaks.hpp"
 
@@ -25,7 +25,7 @@ struct AllSlices {
   KOKKOS_FORCEINLINE_FUNCTION int operator()(int k) const { return k; }
 };
 
-// omega x_i + sum_j a_ij (x_i - x_j), a_ij = k A_ij / d_ij: the free surface's matrix (kernels/sisph/coefficients.hpp).
+// omega x_i + sum_j a_ij (x_i - x_j), a_ij = k A_ij / d_ij: the free surface's matrix (kernels/sisph/pairs/coefficients.hpp).
 class System {
  public:
   explicit System(int wanted)

@@ -23,8 +23,8 @@
 #include <vector>
 
 #include "cellgrid/runtime.hpp"
-#include "kernels/swe/density.hpp"
-#include "kernels/swe/internal_force.hpp"
+#include "kernels/swe/density/density.hpp"
+#include "kernels/swe/force/internal_force.hpp"
 #include "kernels/swe/motion.hpp"
 #include "src/method.hpp"
 #include "src/scene/place.hpp"

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "cellgrid/pairs.hpp"
-#include "kernels/bed_spline.hpp"
-#include "kernels/swe/density.hpp"
-#include "kernels/swe/depth_gradient.hpp"
-#include "kernels/swe/internal_force.hpp"
+#include "kernels/ground/bed_spline.hpp"
+#include "kernels/swe/density/density.hpp"
+#include "kernels/swe/density/depth_gradient.hpp"
+#include "kernels/swe/force/internal_force.hpp"
 #include "kernels/swe/motion.hpp"
 
 namespace freshet::perf {
@@ -147,7 +147,7 @@ class Water {
   }
   void add_walls(WallKind kind) {
     const double size = side_ * dx;
-    walls_.emplace(std::vector<WallLine>{{{0, 0}, {size, 0}, {size, size}, {0, size}, {0, 0}}},
+    walls_.emplace(std::vector<Polyline>{{{0, 0}, {size, 0}, {size, size}, {0, size}, {0, 0}}},
                    WallOptions{kind, dx, 1.5 * 2 * eta * dx, true}, std::array<double, 2>{size / 2, size / 2}, 2.0);
     find_walls();
   }

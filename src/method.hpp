@@ -8,7 +8,7 @@
 
 #include "cellgrid/order.hpp"
 #include "cellgrid/work.hpp"
-#include "kernels/wet_levels.hpp"
+#include "kernels/water/wet_levels.hpp"
 #include "src/scene/scene.hpp"
 
 namespace freshet {

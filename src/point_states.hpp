@@ -1,6 +1,6 @@
 // What was sampled of shallow water, as the run loop asks for it.
 #pragma once
-#include "kernels/sampling.hpp"
+#include "kernels/water/sampling.hpp"
 #include "src/method.hpp"
 
 namespace freshet {

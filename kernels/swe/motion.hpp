@@ -3,8 +3,8 @@
 #pragma once
 #include <optional>
 
-#include "kernels/bed_spline.hpp"
-#include "kernels/nearest_table.hpp"
+#include "kernels/ground/bed_spline.hpp"
+#include "kernels/ground/nearest_table.hpp"
 #include "kernels/swe/particles.hpp"
 
 namespace freshet::swe {

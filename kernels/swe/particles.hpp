@@ -2,7 +2,7 @@
 // Units: rho_w = 1, so that the density per area rho is the depth d [m] and the mass m is a volume [m3] (1-D: [m2], unit width).
 #pragma once
 #include "cellgrid/twin.hpp"
-#include "kernels/smoothing.hpp"
+#include "kernels/smoothing/smoothing.hpp"
 
 namespace freshet::swe {
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "cellgrid/assign.hpp"
-#include "kernels/fpm/surface_line.hpp"
+#include "kernels/fpm/cells/surface_line.hpp"
 #include "src/fpm/solver.hpp"
 
 namespace freshet::fpm {

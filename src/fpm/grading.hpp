@@ -3,7 +3,7 @@
 // of neighbours in h = support x spacing stays what it is on a uniform cloud.
 #pragma once
 #include "cellgrid/fields.hpp"
-#include "kernels/bed_spline.hpp"
+#include "kernels/ground/bed_spline.hpp"
 #include "src/scene/scene.hpp"
 
 namespace freshet::fpm {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/walls/polyline.hpp"
+
 namespace freshet::fpm {
 namespace {
 
@@ -30,8 +32,9 @@ void walk(const Scene& scene, const Point& a, const Point& b, std::vector<Node>&
 // The places chosen so far, by squares as long as the largest distance asked for.
 class Chosen {
  public:
-  Chosen(const Point& low, const Point& high, double side)
-      : low_(low), side_(side), nx_(count(high[0] - low[0])), ny_(count(high[1] - low[1])), in_(static_cast<std::size_t>(nx_ * ny_)) {}
+  Chosen(const Box& box, double side)
+      : low_{box.xlo, box.ylo}, side_(side), nx_(count(box.xhi - box.xlo)), ny_(count(box.yhi - box.ylo)),
+        in_(static_cast<std::size_t>(nx_ * ny_)) {}
 
   void add(const Point& p) { in_[static_cast<std::size_t>(row(p) * nx_ + column(p))].push_back(p); }
   bool has_room(const Point& p, double distance) const {
@@ -55,15 +58,6 @@ class Chosen {
 
 }  // namespace
 
-bool encloses(const std::vector<Point>& polygon, const Point& p) {
-  bool inside = false;
-  for (std::size_t k = 0, l = polygon.size() - 1; k < polygon.size(); l = k++) {
-    const Point &a = polygon[k], &b = polygon[l];
-    if ((a[1] > p[1]) != (b[1] > p[1]) && p[0] < a[0] + (b[0] - a[0]) * (p[1] - a[1]) / (b[1] - a[1])) inside = !inside;
-  }
-  return inside;
-}
-
 double spacing_at(const Scene& scene, const Point& x) {
   return scene.water.spacing * (scene.fpm->grading ? scene.fpm->grading(x[0], x[1]) : 1.0);
 }
@@ -71,16 +65,12 @@ double spacing_at(const Scene& scene, const Point& x) {
 std::vector<Node> graded_nodes(const Scene& scene, const std::vector<Point>& outline) {
   std::vector<Node> nodes;
   for (std::size_t k = 0; k < outline.size(); ++k) walk(scene, outline[k], outline[(k + 1) % outline.size()], nodes);
-  Point low = outline[0], high = low;
-  for (const Point& p : outline) {
-    low = {std::min(low[0], p[0]), std::min(low[1], p[1])};
-    high = {std::max(high[0], p[0]), std::max(high[1], p[1])};
-  }
-  Chosen chosen(low, high, coarsest * apart * scene.water.spacing);
+  const Box box = bounds_of(outline);
+  Chosen chosen(box, coarsest * apart * scene.water.spacing);
   for (const Node& node : nodes) chosen.add(node.x);
   const double step = 0.25 * scene.water.spacing;
-  for (double y = low[1] + step; y < high[1]; y += step)
-    for (double x = low[0] + step; x < high[0]; x += step)
+  for (double y = box.ylo + step; y < box.yhi; y += step)
+    for (double x = box.xlo + step; x < box.xhi; x += step)
       if (const Point p{x, y}; chosen.has_room(p, apart * spacing_at(scene, p)) && encloses(outline, p)) {
         chosen.add(p);
         nodes.push_back({p, true});

@@ -11,8 +11,6 @@ struct Node {
   bool inside;  // off the outline: may be displaced
 };
 
-bool encloses(const std::vector<Point>& polygon, const Point& p);
-
 // The spacing [m] at a place.
 double spacing_at(const Scene& scene, const Point& x);
 

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <string>
 
+#include "kernels/walls/polyline.hpp"
 #include "src/errors.hpp"
 #include "src/fpm/nodes.hpp"
 #include "src/scene/random.hpp"
-#include "src/scene/water_region.hpp"
 
 namespace freshet::fpm {
 namespace {
@@ -54,12 +54,6 @@ std::vector<Node> nodes_of_circle(const Body& body, double spacing) {
   return nodes;
 }
 
-double distance_to_outline(const std::vector<Point>& outline, const Point& p) {
-  double least = 1e300;
-  for (std::size_t k = 0; k < outline.size(); ++k) least = std::min(least, distance(p, outline[k], outline[(k + 1) % outline.size()]));
-  return least;
-}
-
 void add_outline(const std::vector<Point>& outline, double spacing, std::vector<Node>& nodes) {
   for (std::size_t k = 0; k < outline.size(); ++k) {
     const Point a = outline[k], b = outline[(k + 1) % outline.size()];
@@ -75,14 +69,13 @@ std::vector<Node> nodes_of_polygon(const Scene& scene, const Body& body) {
   const double dx = scene.water.spacing;
   std::vector<Node> nodes;
   add_outline(body.outline, dx, nodes);
-  Point low = body.outline[0], high = low;
-  for (const Point& p : body.outline) {
-    low = {std::min(low[0], p[0]), std::min(low[1], p[1])};
-    high = {std::max(high[0], p[0]), std::max(high[1], p[1])};
-  }
-  for (double y = low[1]; y < high[1]; y += dx)
-    for (double x = low[0]; x < high[0]; x += dx)
-      if (encloses(body.outline, {x, y}) && distance_to_outline(body.outline, {x, y}) > off_outline * dx) nodes.push_back({{x, y}, true});
+  const Box box = bounds_of(body.outline);
+  Polyline closed = body.outline;
+  closed.push_back(closed.front());
+  for (double y = box.ylo; y < box.yhi; y += dx)
+    for (double x = box.xlo; x < box.xhi; x += dx)
+      if (encloses(closed, {x, y}) && distance({x, y}, closed) > off_outline * dx)
+        nodes.push_back({{x, y}, true});
   return nodes;
 }
 

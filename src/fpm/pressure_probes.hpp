@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "kernels/fpm/transfer.hpp"
+#include "kernels/fpm/points/transfer.hpp"
 #include "src/scene/scene.hpp"
 
 namespace freshet::fpm {

@@ -18,8 +18,8 @@ Period period_of(const Scene& scene) {
   return {{scene.domain.low[0], scene.domain.low[1]}, {length(0), length(1)}};
 }
 
-std::vector<std::vector<std::array<double, 2>>> lines_of(const std::vector<Wall>& walls) {
-  std::vector<std::vector<std::array<double, 2>>> lines;
+std::vector<Polyline> lines_of(const std::vector<Wall>& walls) {
+  std::vector<Polyline> lines;
   for (const Wall& wall : walls) lines.push_back(wall.line);
   return lines;
 }
@@ -108,15 +108,15 @@ void Solver::seat_on_walls() {
   const TankView tank = tank_.view();
   const double near = touching * scene_.water.spacing;  // where the spacing varies, that of the finest
   launch("fpm::seat", Range(0, points_.size()), KOKKOS_LAMBDA(int i) {
-        const Footing f = tank.nearest(at(x, i), near);
+        const NearestPiece f = tank.nearest(at(x, i), near);
         kind(i) = in_fluid;
         side(i) = -1;
-        if (f.side < 0) return;
-        const Side& s = tank.sides(f.side);
+        if (f.piece < 0) return;
+        const Side& s = tank.sides(f.piece);
         const bool at_a = f.foot.along < near && s.corner_a, at_b = f.foot.along > s.length - near && s.corner_b;
         kind(i) = at_a || at_b ? in_corner : on_wall;
-        side(i) = at_a ? s.before : f.side;
-        put(x, i, at_a ? s.a : at_b ? s.b : tank.place(f.side, clamp(f.foot.along, 0.0, s.length)));
+        side(i) = at_a ? s.before : f.piece;
+        put(x, i, at_a ? s.a : at_b ? s.b : tank.place(f.piece, clamp(f.foot.along, 0.0, s.length)));
       });
 }
 

@@ -5,8 +5,8 @@
 #include <cstdio>
 
 #include "cellgrid/launch.hpp"
-#include "kernels/fpm/area.hpp"
-#include "kernels/fpm/supports.hpp"
+#include "kernels/fpm/cells/area.hpp"
+#include "kernels/fpm/cells/supports.hpp"
 #include "src/errors.hpp"
 
 namespace freshet::fpm {

@@ -1,7 +1,7 @@
 // Incompressible flow by the Finite Pointset Method (thesis ch. 5, corrected): the recipe of one step.
 #pragma once
-#include "kernels/fpm/points.hpp"
-#include "kernels/fpm/projection.hpp"
+#include "kernels/fpm/points/points.hpp"
+#include "kernels/fpm/pressure/projection.hpp"
 #include "src/fpm/area_keeper.hpp"
 #include "src/fpm/grading.hpp"
 #include "src/fpm/pressure_probes.hpp"

@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "kernels/raster.hpp"
+#include "kernels/water/raster.hpp"
 
 namespace freshet {
 

@@ -23,7 +23,7 @@ struct GaugeResult {
 
 struct RunUpResult {
   std::string name;
-  double highest = unknown, waterline = unknown;         // m, of kernels/wet_levels.hpp bed and line; unknown: nothing was wet
+  double highest = unknown, waterline = unknown;         // m, of kernels/water/wet_levels.hpp bed and line; unknown: nothing was wet
   std::pair<double, double> measured{unknown, unknown};  // m, lowest and highest
 };
 

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <new>
 
-#include "kernels/ids.hpp"
+#include "kernels/water/ids.hpp"
 #include "src/errors.hpp"
 #include "src/run/commands.hpp"
 #include "src/scene/diagnostics.hpp"

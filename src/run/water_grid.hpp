@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "kernels/raster.hpp"
+#include "kernels/water/raster.hpp"
 #include "src/method.hpp"
 
 namespace freshet {

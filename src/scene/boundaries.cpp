@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 
+#include "kernels/walls/polyline.hpp"
 #include "src/scene/choices.hpp"
 #include "src/scene/sections.hpp"
 #include "src/scene/series.hpp"
@@ -42,21 +43,19 @@ constexpr double most_bend = 120;
 
 bool bends_too_much(const std::vector<Point>& line) {
   for (std::size_t k = 1; k + 1 < line.size(); ++k) {
-    const double ax = line[k][0] - line[k - 1][0], ay = line[k][1] - line[k - 1][1];
-    const double bx = line[k + 1][0] - line[k][0], by = line[k + 1][1] - line[k][1];
-    if (std::abs(std::atan2(ax * by - ay * bx, ax * bx + ay * by)) > most_bend * pi / 180) return true;
+    const Vec<double, 2> a = to_vec<2>(line[k - 1]), b = to_vec<2>(line[k]), c = to_vec<2>(line[k + 1]);
+    if (std::abs(turn(b - a, c - b)) > most_bend * pi / 180) return true;
   }
   return false;
 }
 
 // Whether what lies left of a piece is outside the domain.
 bool leads_out(const std::vector<Point>& line, const Scene& scene) {
-  const Domain& domain = scene.domain;
   for (std::size_t k = 1; k < line.size(); ++k) {
-    const double tx = line[k][0] - line[k - 1][0], ty = line[k][1] - line[k - 1][1], off = 0.01 * scene.water.spacing / std::hypot(tx, ty);
-    const Point left{0.5 * (line[k][0] + line[k - 1][0]) - off * ty, 0.5 * (line[k][1] + line[k - 1][1]) + off * tx};
-    for (std::size_t axis = 0; axis < 2; ++axis)
-      if (left[axis] < domain.low[axis] || left[axis] > domain.high[axis]) return true;
+    const Piece piece = piece_between(line[k - 1], line[k]);
+    const Vec<double, 2> left = 0.5 * (piece.a + piece.b) + 0.01 * scene.water.spacing * piece.normal;
+    const Point a = scene.domain.low, b = scene.domain.high;
+    if (left.x < a[0] || left.x > b[0] || left.y < a[1] || left.y > b[1]) return true;
   }
   return false;
 }
@@ -86,17 +85,16 @@ std::vector<Point> read_line(Table& section, const Scene& scene) {
   return line;
 }
 
-// Whether two straight pieces share more than a point; a tolerance in m.
-bool overlap(const Point* a, const Point* b, double tolerance) {
-  const double tx = a[1][0] - a[0][0], ty = a[1][1] - a[0][1], length = std::hypot(tx, ty);
-  double low = length, high = 0;
+// Whether piece s and that from b[0] to b[1] share more than a point; a tolerance in m.
+bool overlap(const Piece& s, const Point* b, double tolerance) {
+  double low = s.length, high = 0;
   for (int k = 0; k < 2; ++k) {
-    const double x = b[k][0] - a[0][0], y = b[k][1] - a[0][1], along = (x * tx + y * ty) / length;
-    if (std::abs(x * ty - y * tx) / length > tolerance) return false;
-    low = std::min(low, along);
-    high = std::max(high, along);
+    const Foot<double> foot = foot_on(s, to_vec<2>(b[k]));
+    if (std::abs(foot.off) > tolerance) return false;
+    low = std::min(low, foot.along);
+    high = std::max(high, foot.along);
   }
-  return std::min(high, length) - std::max(low, 0.0) > tolerance;
+  return std::min(high, s.length) - std::max(low, 0.0) > tolerance;
 }
 
 // Water that crosses belongs to one boundary.
@@ -105,7 +103,7 @@ void require_apart(const Table& section, const OpenBoundary& boundary, const Sce
   for (const OpenBoundary& other : scene.boundaries)
     for (std::size_t k = 0; k + 1 < boundary.line.size(); ++k)
       for (std::size_t l = 0; l + 1 < other.line.size(); ++l)
-        if (overlap(&boundary.line[k], &other.line[l], tolerance))
+        if (overlap(piece_between(boundary.line[k], boundary.line[k + 1]), &other.line[l], tolerance))
           return section.error("name", "boundary '" + boundary.name + "' lies on boundary '" + other.name + "'",
                                "let one end where the other begins");
 }

@@ -1,9 +1,9 @@
 // The sections of method "fpm": [fluid], [[body]], [fpm], and domain.periodic.
 #include <cmath>
 
+#include "kernels/walls/polyline.hpp"
 #include "src/scene/choices.hpp"
 #include "src/scene/sections.hpp"
-#include "src/scene/water_region.hpp"
 
 namespace freshet::input {
 namespace {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 
+#include "kernels/walls/polyline.hpp"
 #include "src/scene/files.hpp"
 #include "src/scene/grid_file.hpp"
 #include "src/scene/region.hpp"

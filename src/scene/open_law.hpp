@@ -1,6 +1,6 @@
 // What an open boundary of a scene imposes, its series on the device.
 #pragma once
-#include "kernels/open_in_time.hpp"
+#include "kernels/open/in_time.hpp"
 #include "src/scene/scene.hpp"
 
 namespace freshet {

@@ -36,11 +36,4 @@ std::vector<Point> read_region(Table& region, int dimension) {
   return {};
 }
 
-bool encloses(const std::vector<Point>& polygon, const Point& p) {
-  bool inside = false;
-  for (std::size_t k = 0, before = polygon.size() - 1; k < polygon.size(); before = k++)
-    if (crosses_ray(polygon[before], polygon[k], p)) inside = !inside;
-  return inside;
-}
-
 }  // namespace freshet::input

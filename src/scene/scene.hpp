@@ -9,17 +9,17 @@
 #include <string>
 #include <vector>
 
-#include "kernels/fpm/pressure_scheme.hpp"
-#include "kernels/open_states.hpp"
-#include "kernels/sisph/momentum_form.hpp"
-#include "kernels/sisph/paths.hpp"
-#include "kernels/smoothing.hpp"
-#include "kernels/swe/stabilisation.hpp"
-#include "kernels/wall_kind.hpp"
+#include "kernels/fpm/pressure/pressure_scheme.hpp"
+#include "kernels/open/states.hpp"
+#include "kernels/sisph/velocity/momentum_form.hpp"
+#include "kernels/sisph/moving/paths.hpp"
+#include "kernels/smoothing/smoothing.hpp"
+#include "kernels/swe/force/stabilisation.hpp"
+#include "kernels/walls/wall_kind.hpp"
+#include "kernels/walls/point.hpp"
 
 namespace freshet {
 
-using Point = std::array<double, 2>;                      // x, y [m]
 using Function = std::function<double(double, double)>;   // of x, y
 class Exact;                                              // src/reference/exact.hpp
 
@@ -131,7 +131,7 @@ struct Sph {
   WallKind walls = WallKind::automatic;
   bool slip = true;            // walls; false: they also hold the tangential velocity back
   bool mixed = false;          // pairs in single precision, what is made of their sums in double
-  bool well_balanced = false;  // still water over any bed stays at rest to round-off (kernels/swe/well_balanced.hpp)
+  bool well_balanced = false;  // still water over any bed stays at rest to round-off (kernels/swe/force/well_balanced.hpp)
 };
 
 // The semi-implicit method.

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/walls/polyline.hpp"
+
 namespace freshet::input {
 namespace {
-
-struct Piece {
-  Point from, to;
-};
 
 double diagonal(const Domain& domain) {
   return std::hypot(domain.high[0] - domain.low[0], domain.high[1] - domain.low[1]);
@@ -22,19 +20,20 @@ struct Opening {
 
 // Empty unless the line lies on the side.
 Opening opening_in(const Piece& side, const Point* line, double tolerance) {
-  const double dx = side.to[0] - side.from[0], dy = side.to[1] - side.from[1], length = std::hypot(dx, dy);
   std::array<double, 2> part{};
   for (int k = 0; k < 2; ++k) {
-    const double x = line[k][0] - side.from[0], y = line[k][1] - side.from[1];
-    if (std::abs(x * dy - y * dx) / length > tolerance) return {};
-    part[k] = (x * dx + y * dy) / (length * length);
+    const Foot<double> foot = foot_on(side, to_vec<2>(line[k]));
+    if (std::abs(foot.off) > tolerance) return {};
+    part[k] = foot.along / side.length;
   }
   const int first = part[0] < part[1] ? 0 : 1;
   return {part[first], part[1 - first], line[first], line[1 - first]};
 }
 
-std::vector<Piece> closed_parts(const Piece& side, const Scene& scene) {
+// What is left of the side from one corner to the next, as ends of pieces.
+std::vector<std::array<Point, 2>> closed_parts(const Point& from, const Point& to, const Scene& scene) {
   constexpr double none = 1e-9;  // of the side: shorter pieces are rounding
+  const Piece side = piece_between(from, to);
   std::vector<Opening> openings;
   for (const OpenBoundary& boundary : scene.boundaries)
     for (std::size_t k = 0; k + 1 < boundary.line.size(); ++k) {
@@ -43,10 +42,10 @@ std::vector<Piece> closed_parts(const Piece& side, const Scene& scene) {
     }
   std::sort(openings.begin(), openings.end(),
             [](const Opening& a, const Opening& b) { return a.from < b.from; });
-  openings.push_back({1, 1, side.to, side.to});
-  std::vector<Piece> parts;
+  openings.push_back({1, 1, to, to});
+  std::vector<std::array<Point, 2>> parts;
   double reached = 0;
-  Point begin = side.from;
+  Point begin = from;
   for (const Opening& opening : openings) {
     if (opening.from - reached > none) parts.push_back({begin, opening.first});
     if (opening.to <= reached) continue;
@@ -72,9 +71,9 @@ void add_box_walls(Scene& scene) {
   const std::array<Point, 4> corners = {{{a[0], a[1]}, {b[0], a[1]}, {b[0], b[1]}, {a[0], b[1]}}};
   std::vector<Wall> chains;
   for (int k = 0; k < 4; ++k) {
-    for (const Piece& piece : closed_parts({corners[k], corners[(k + 1) % 4]}, scene)) {
-      if (chains.empty() || chains.back().line.back() != piece.from) chains.push_back({{piece.from}});
-      chains.back().line.push_back(piece.to);
+    for (const auto& [from, to] : closed_parts(corners[k], corners[(k + 1) % 4], scene)) {
+      if (chains.empty() || chains.back().line.back() != from) chains.push_back({{from}});
+      chains.back().line.push_back(to);
     }
   }
   // The last chain may end where the first begins: at the corner where the walk started.

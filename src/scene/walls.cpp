@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/walls/polyline.hpp"
 #include "src/scene/sections.hpp"
 #include "src/scene/sides.hpp"
-#include "src/scene/water_region.hpp"
 
 namespace freshet::input {
 namespace {
@@ -93,13 +93,11 @@ void note_leak(Table& section, const Scene& scene, std::size_t wall, const Point
     const std::vector<Point>& line = scene.walls[other].line;
     for (std::size_t k = 0; k + 1 < line.size(); ++k) {
       const bool own_end = other == wall && (k == 0 || k + 2 == line.size()) && (line[k] == end || line[k + 1] == end);
-      if (!own_end) gap = std::min(gap, distance(end, line[k], line[k + 1]));
+      if (!own_end) gap = std::min(gap, distance(end, piece_between(line[k], line[k + 1])));
     }
-    if (other == wall && line.size() > 2) gap = std::min(gap, distance(line.front(), line.back(), line.back()));
+    if (other == wall && line.size() > 2) gap = std::min(gap, distance(line.front(), Polyline{line.back()}));
   }
-  for (const OpenBoundary& boundary : scene.boundaries)
-    for (std::size_t k = 0; k + 1 < boundary.line.size(); ++k)
-      gap = std::min(gap, distance(end, boundary.line[k], boundary.line[k + 1]));
+  for (const OpenBoundary& boundary : scene.boundaries) gap = std::min(gap, distance(end, boundary.line));
   if (gap <= 1e-6 * scene.water.spacing || gap > 1e299) return;
   section.context().notes.push_back("a wall ends at " + shown(end, scene.domain) + ", " + rounded(gap) +
                                     " m from the next wall or open boundary: water can leak out there");

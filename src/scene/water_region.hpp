@@ -2,14 +2,10 @@
 #pragma once
 #include <vector>
 
-#include "kernels/segment_bins.hpp"
+#include "kernels/walls/piece_bins.hpp"
 #include "src/scene/scene.hpp"
 
 namespace freshet {
-
-double signed_area(const std::vector<Point>& line);                       // m2, positive counter-clockwise; closed or not
-double distance(const Point& p, const Point& a, const Point& b);          // m, to the segment a-b
-bool crosses_itself(const std::vector<Point>& line);                      // closed or not
 
 // The side of every closed wall on which the water is (left of its direction). Without closed walls: everywhere.
 class WaterRegion {
@@ -22,8 +18,8 @@ class WaterRegion {
   struct Outline {
     std::vector<Point> line;
     bool water_inside;
-    Point low, high;     // m, bounds
-    SegmentBins by_y{};  // its sides by their heights alone: those that a ray along x may cross
+    Box bounds;        // m
+    PieceBins by_y{};  // its sides by their heights alone: those that a ray along x may cross
 
     bool encloses(const Point& p) const;
   };

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/walls/polyline.hpp"
 #include "src/errors.hpp"
-#include "src/scene/water_region.hpp"
 
 namespace freshet::sisph {
 namespace {
@@ -18,10 +18,7 @@ bool is_on_side(const Domain& domain, const Point& a, const Point& b, double tol
 
 double distance_to_wall(const Scene& scene, const Point& p) {
   double least = 1e300;
-  for (const Wall& wall : scene.walls) {
-    if (scene.domain.dimension == 1) least = std::min(least, std::abs(wall.line[0][0] - p[0]));
-    for (std::size_t k = 0; k + 1 < wall.line.size(); ++k) least = std::min(least, distance(p, wall.line[k], wall.line[k + 1]));
-  }
+  for (const Wall& wall : scene.walls) least = std::min(least, distance(p, wall.line));
   return least;
 }
 
@@ -38,11 +35,11 @@ Beside beside(const Scene& scene, const Point& place) {
   for (std::size_t o = 0; o < scene.boundaries.size() && !found.wall && found.opening < 0; ++o) {
     const std::vector<Point>& line = scene.boundaries[o].line;
     for (std::size_t k = 0; k + 1 < line.size() && found.opening < 0; ++k) {
-      if (distance(side, line[k], line[k + 1]) > tolerance) continue;
-      const double dx = line[k + 1][0] - line[k][0], dy = line[k + 1][1] - line[k][1], length = std::hypot(dx, dy);
+      const Piece piece = piece_between(line[k], line[k + 1]);
+      if (distance(side, piece) > tolerance) continue;
       found.opening = static_cast<int>(o);
-      found.n = {dy / length, -dx / length};
-      found.outside = (place[0] - line[k][0]) * found.n[0] + (place[1] - line[k][1]) * found.n[1];
+      found.n = {-piece.normal.x, -piece.normal.y};
+      found.outside = -foot_on(piece, to_vec<2>(place)).off;
     }
   }
   return found;

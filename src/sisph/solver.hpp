@@ -1,24 +1,24 @@
 // Semi-implicit SPH for the shallow water equations (Bankole 2016, ch. 5-7, corrected): formulation E, particles at rest; or L,
-// particles that move with the water (moving.cpp, kernels/sisph/moving.hpp).
+// particles that move with the water (moving.cpp, kernels/sisph/moving/moving.hpp).
 // Gravity waves are implicit, so the celerity does not bound the step. One step:
 //   velocity before the pressure at n+1 (along particle paths, or carried by the mass fluxes), a linear or (with drying)
 //   piecewise linear system for the free surface, fluxes and depths from it, the pressure at n+1; repeated (Picard).
 #pragma once
 #include <optional>
 
-#include "kernels/bed_spline.hpp"
-#include "kernels/nearest_table.hpp"
-#include "kernels/sampling.hpp"
-#include "kernels/sisph/active.hpp"
-#include "kernels/sisph/closure.hpp"
-#include "kernels/sisph/conservative.hpp"
-#include "kernels/sisph/friction.hpp"
-#include "kernels/sisph/mass_flux.hpp"
-#include "kernels/sisph/moving.hpp"
-#include "kernels/sisph/open.hpp"
-#include "kernels/sisph/rim.hpp"
-#include "kernels/sisph/semi_lagrangian.hpp"
-#include "kernels/sisph/viscosity.hpp"
+#include "kernels/ground/bed_spline.hpp"
+#include "kernels/ground/nearest_table.hpp"
+#include "kernels/sisph/moving/moving.hpp"
+#include "kernels/sisph/open/open.hpp"
+#include "kernels/sisph/open/rim.hpp"
+#include "kernels/sisph/pairs/active.hpp"
+#include "kernels/sisph/pairs/closure.hpp"
+#include "kernels/sisph/velocity/conservative.hpp"
+#include "kernels/sisph/velocity/friction.hpp"
+#include "kernels/sisph/velocity/mass_flux.hpp"
+#include "kernels/sisph/velocity/semi_lagrangian.hpp"
+#include "kernels/sisph/velocity/viscosity.hpp"
+#include "kernels/water/sampling.hpp"
 #include "src/method.hpp"
 
 namespace freshet::sisph {

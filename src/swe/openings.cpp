@@ -3,48 +3,37 @@
 #include <cmath>
 
 #include "cellgrid/launch.hpp"
-#include "kernels/swe/lattice.hpp"
+#include "kernels/swe/density/lattice.hpp"
 #include "src/swe/solver.hpp"
 
 namespace freshet::swe {
 namespace {
 
 using Boundary = freshet::OpenBoundary;
-using Line = std::vector<Point>;
 
 constexpr double wall_cells = 8;      // a wall beside a buffer is so long
 constexpr double least_outward = 0.2;  // sine: a wall that meets the line at a smaller angle runs along it, not out of it
 
-Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1]}; }
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1]; }
-double cross(const Point& a, const Point& b) { return a[0] * b[1] - a[1] * b[0]; }
-Point unit(const Point& a) {
-  const double length = std::hypot(a[0], a[1]);
-  return {a[0] / length, a[1] / length};
+bool meet(const Vec<double, 2>& a, const Point& b, double spacing) {
+  return freshet::meet({a.x, a.y}, b, 1e-3 * spacing);
 }
-Point outward(const Point& tangent) { return {tangent[1], -tangent[0]}; }  // the water is on the left
-bool meet(const Point& a, const Point& b, double spacing) { return std::hypot(a[0] - b[0], a[1] - b[1]) < 1e-3 * spacing; }
 
-// A straight piece of a boundary, from a to b.
-struct Piece {
-  Point a, b;
-  Point tangent() const { return unit(b - a); }
-};
+Vec<double, 2> outward(const Piece& piece) { return -1.0 * piece.normal; }
 
-std::vector<Piece> pieces_of(const Scene& scene) {
+std::vector<Piece> pieces_of(const std::vector<Boundary>& boundaries) {
   std::vector<Piece> pieces;
-  for (const Boundary& boundary : scene.boundaries)
-    for (size_t k = 0; k + 1 < boundary.line.size(); ++k) pieces.push_back({boundary.line[k], boundary.line[k + 1]});
+  for (const Boundary& boundary : boundaries) append_pieces(boundary.line, false, pieces);
   return pieces;
 }
 
-// The last piece of a wall on its way to `end`, if the wall ends there.
-std::optional<Point> wall_direction(const std::vector<Wall>& walls, const Point& end, double spacing) {
+// The direction of a wall on its way to `end`, if it ends there.
+std::optional<Vec<double, 2>> wall_direction(const std::vector<Wall>& walls, const Vec<double, 2>& end,
+                                             double spacing) {
   for (const Wall& wall : walls) {
-    const Line& line = wall.line;
+    const Polyline& line = wall.line;
     if (line.size() < 2) continue;
-    if (meet(line.front(), end, spacing)) return unit(line[0] - line[1]);
-    if (meet(line.back(), end, spacing)) return unit(line.back() - line[line.size() - 2]);
+    if (meet(end, line.front(), spacing)) return piece_between(line[1], line[0]).tangent;
+    if (meet(end, line.back(), spacing)) return piece_between(line[line.size() - 2], line.back()).tangent;
   }
   return {};
 }
@@ -52,25 +41,21 @@ std::optional<Point> wall_direction(const std::vector<Wall>& walls, const Point&
 // How a buffer widens at one end of its piece: half of the bend towards another piece, or along an oblique wall.
 double spread(const Scene& scene, const std::vector<Piece>& pieces, const Piece& piece, bool at_b) {
   const double spacing = scene.water.spacing;
-  const Point end = at_b ? piece.b : piece.a, t = piece.tangent();
+  const Vec<double, 2> end = at_b ? piece.b : piece.a;
   for (const Piece& other : pieces)
-    if (meet(at_b ? other.a : other.b, end, spacing)) {
-      const Point first = at_b ? t : other.tangent(), second = at_b ? other.tangent() : t;
-      return std::tan(0.5 * std::atan2(cross(first, second), dot(first, second)));
-    }
-  const std::optional<Point> wall = wall_direction(scene.walls, end, spacing);
-  if (!wall || dot(*wall, outward(t)) < least_outward) return 0;
-  return (at_b ? 1 : -1) * dot(*wall, t) / dot(*wall, outward(t));
+    if (const Vec<double, 2> there = at_b ? other.a : other.b; meet(end, {there.x, there.y}, spacing))
+      return std::tan(0.5 * (at_b ? turn(piece.tangent, other.tangent) : turn(other.tangent, piece.tangent)));
+  const auto wall = wall_direction(scene.walls, end, spacing);
+  if (!wall || dot(*wall, outward(piece)) < least_outward) return 0;
+  return (at_b ? 1 : -1) * dot(*wall, piece.tangent) / dot(*wall, outward(piece));
 }
 
 OpenLine<1> open_line(const Scene&, const std::vector<Piece>&, const Piece& piece, Vec<double, 1>) {
-  return {{piece.a[0]}, {piece.a[1] > piece.b[1] ? 1.0 : -1.0}, {0.0}, 1.0};
+  return {{piece.a.x}, {piece.a.y > piece.b.y ? 1.0 : -1.0}, {0.0}, 1.0};
 }
 OpenLine<2> open_line(const Scene& scene, const std::vector<Piece>& pieces, const Piece& piece, Vec<double, 2>) {
-  const Point t = piece.tangent(), n = outward(t);
-  const double length = std::hypot(piece.b[0] - piece.a[0], piece.b[1] - piece.a[1]);
-  return {{piece.a[0], piece.a[1]}, {-n[0], -n[1]}, {t[0], t[1]}, length,
-          spread(scene, pieces, piece, false), spread(scene, pieces, piece, true)};
+  const double spread_a = spread(scene, pieces, piece, false), spread_b = spread(scene, pieces, piece, true);
+  return {piece.a, piece.normal, piece.tangent, piece.length, spread_a, spread_b};
 }
 
 // When what is imposed changes its slope.
@@ -85,16 +70,16 @@ std::vector<double> times_of(const Boundary& b) {
 // along the line ends there.
 void extend_end(Point& end, const Point& before, const std::vector<Piece>& pieces, double spacing) {
   for (const Piece& piece : pieces) {
-    if (!meet(end, piece.a, spacing) && !meet(end, piece.b, spacing)) continue;
-    const Point along = end - before;
-    if (dot(unit(along), outward(piece.tangent())) < least_outward) return;
-    const double share = wall_cells / std::max(1.0, std::round(std::hypot(along[0], along[1]) / spacing));
-    end = {end[0] + share * along[0], end[1] + share * along[1]};
+    if (!meet(piece.a, end, spacing) && !meet(piece.b, end, spacing)) continue;
+    const Piece last = piece_between(before, end);
+    if (dot(last.tangent, outward(piece)) < least_outward) return;
+    const double share = wall_cells / std::max(1.0, std::round(last.length / spacing));
+    end = {end[0] + share * (end[0] - before[0]), end[1] + share * (end[1] - before[1])};
     return;
   }
 }
 
-void extend_past(Line& wall, const std::vector<Piece>& pieces, double spacing) {
+void extend_past(Polyline& wall, const std::vector<Piece>& pieces, double spacing) {
   if (wall.size() < 2) return;
   extend_end(wall.front(), wall[1], pieces, spacing);
   extend_end(wall.back(), wall[wall.size() - 2], pieces, spacing);
@@ -104,7 +89,7 @@ void extend_past(Line& wall, const std::vector<Piece>& pieces, double spacing) {
 
 template <int D>
 void Solver<D>::build_boundaries() {
-  const std::vector<Piece> all = pieces_of(scene_);
+  const std::vector<Piece> all = pieces_of(scene_.boundaries);
   auto piece = all.begin();
   int owner = 1;
   for (const Boundary& b : scene_.boundaries) {
@@ -120,10 +105,10 @@ void Solver<D>::build_boundaries() {
 template <int D>
 void Solver<D>::build_walls() {
   if (scene_.walls.empty()) return;
-  const std::vector<Piece> pieces = pieces_of(scene_);
+  const std::vector<Piece> pieces = pieces_of(scene_.boundaries);
   double spacing = scene_.water.spacing;  // of the coarsest buffer
   for (const Boundary& b : scene_.boundaries) spacing = std::max(spacing, b.spacing);
-  std::vector<Line> lines;
+  std::vector<Polyline> lines;
   for (const Wall& wall : scene_.walls) {
     lines.push_back(wall.line);
     if (D == 2) extend_past(lines.back(), pieces, spacing);

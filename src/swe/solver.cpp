@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "kernels/swe/depth_gradient.hpp"
-#include "kernels/swe/lattice.hpp"
+#include "kernels/swe/density/depth_gradient.hpp"
+#include "kernels/swe/density/lattice.hpp"
+#include "kernels/swe/force/well_balanced.hpp"
 #include "kernels/swe/single.hpp"
-#include "kernels/swe/well_balanced.hpp"
 #include "src/errors.hpp"
 #include "src/scene/place.hpp"
 

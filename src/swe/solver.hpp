@@ -4,12 +4,12 @@
 #include <optional>
 
 #include "cellgrid/sums.hpp"
-#include "kernels/sampling.hpp"
-#include "kernels/swe/density.hpp"
-#include "kernels/swe/internal_force.hpp"
+#include "kernels/swe/density/density.hpp"
+#include "kernels/swe/force/internal_force.hpp"
 #include "kernels/swe/motion.hpp"
-#include "kernels/swe/open_boundary.hpp"
-#include "kernels/swe/refinement.hpp"
+#include "kernels/swe/open/boundary.hpp"
+#include "kernels/swe/split/refinement.hpp"
+#include "kernels/water/sampling.hpp"
 #include "src/method.hpp"
 
 namespace freshet::swe {

@@ -2,7 +2,7 @@
 // order, still water still.
 #include <catch2/catch.hpp>
 
-#include "kernels/fpm/elliptic.hpp"
+#include "kernels/fpm/pressure/elliptic.hpp"
 #include "src/errors.hpp"
 #include "src/fpm/nodes.hpp"
 #include "src/fpm/place.hpp"
@@ -29,7 +29,7 @@ struct Graded {
 
   explicit Graded(double spacing) : order(2, spacing, test::wide(spacing)) {
     const Scene scene = unit_square(spacing);
-    std::vector<test::Point> places;
+    std::vector<Point> places;
     for (const auto& p : place_points(scene)) places.push_back({p.x[0], p.x[1]});
     fields = test::point_fields(2, places);
     order.sort(fields);

@@ -4,12 +4,11 @@
 
 #include <functional>
 
-#include "kernels/fpm/points.hpp"
+#include "kernels/fpm/points/points.hpp"
 #include "tests/support/fpm_points.hpp"
 
 using namespace freshet;
 using test::FlowPoints;
-using test::Point;
 
 namespace {
 
@@ -24,7 +23,7 @@ struct Ride {
   fpm::PointCount count;
   int next_id, failed = 0, most_surface = 0, fewest = 1 << 30, most = 0;
 
-  Ride(const std::vector<Point>& start, const std::vector<test::Polyline>& walls = {}, const Period& period = {},
+  Ride(const std::vector<Point>& start, const std::vector<Polyline>& walls = {}, const Period& period = {},
        fpm::PointFields carried = {})
       : set(start, dx, walls), points({dx, 3.2 * dx}, set.tank, period, carried), next_id(static_cast<int>(start.size())) {
     set.period = period;
@@ -158,7 +157,7 @@ TEST_CASE("fpm points: a disc that is stretched keeps its surface") {
 }
 
 TEST_CASE("fpm points: water that turns in a tank stays in it") {
-  const std::vector<test::Polyline> walls = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}}};
+  const std::vector<Polyline> walls = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}}};
   std::vector<Point> start;
   for (int j = 1; j < 20; ++j)
     for (int i = 1; i < 20; ++i) start.push_back({i * dx, j * dx});
@@ -188,7 +187,7 @@ TEST_CASE("fpm points: water that turns in a tank stays in it") {
 
 // A standing wave in a tank: the walls' points follow the surface up and down.
 TEST_CASE("fpm points: walls fall dry and become wet") {
-  const std::vector<test::Polyline> walls = {{{0, 2}, {0, 0}, {1, 0}, {1, 2}}};
+  const std::vector<Polyline> walls = {{{0, 2}, {0, 0}, {1, 0}, {1, 2}}};
   std::vector<Point> start;
   for (int j = 1; j <= 20; ++j)
     for (int i = 1; i < 20; ++i) start.push_back({i * dx, j * dx});

@@ -1,14 +1,13 @@
 // Supports by the number of neighbours: what the iteration settles at, and flows that use it.
 #include <catch2/catch.hpp>
 
-#include "kernels/fpm/mls.hpp"
-#include "kernels/fpm/supports.hpp"
+#include "kernels/fpm/cells/supports.hpp"
+#include "kernels/fpm/stencils/mls.hpp"
 #include "tests/support/flow.hpp"
 #include "tests/support/fpm_points.hpp"
 
 using namespace freshet;
 using test::FlowPoints;
-using test::Point;
 
 namespace {
 

@@ -1,7 +1,7 @@
 // Splitting and merging keep mass, momentum and centre of mass to round-off, whatever the particles; still water stays calm.
 #include <catch2/catch.hpp>
 
-#include "kernels/swe/refinement.hpp"
+#include "kernels/swe/split/refinement.hpp"
 #include "tests/support/cloud.hpp"
 #include "tests/support/scenes.hpp"
 

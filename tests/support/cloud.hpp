@@ -10,15 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "kernels/swe/density.hpp"
-#include "kernels/swe/depth_gradient.hpp"
-#include "kernels/swe/internal_force.hpp"
+#include "kernels/swe/density/density.hpp"
+#include "kernels/swe/density/depth_gradient.hpp"
+#include "kernels/swe/force/internal_force.hpp"
 #include "kernels/swe/single.hpp"
 
 namespace freshet::test {
-
-using Point = std::array<double, 2>;  // m; y = 0 in 1-D
-using Polyline = std::vector<Point>;
 
 // The same uniform numbers with every standard library.
 class Random {
@@ -78,14 +75,6 @@ VecField<double, D> vector_field(const FieldSet& f, const char* x, const char* y
     return {f.real(x)};
   else
     return {f.real(x), f.real(y)};
-}
-
-template <int D>
-Vec<double, D> vec(const Point& p) {
-  Vec<double, D> v;
-  v.x = p[0];
-  if constexpr (D == 2) v.y = p[1];
-  return v;
 }
 
 // A particle as a test describes it; rho is the first guess of the depth, kh = rho0 h0^D the constant of rho h^D.
@@ -236,9 +225,9 @@ class Cloud {
   }
 
   static void set(const swe::Particles<D>& p, int i, const Grain& g) {
-    put(p.x, i, vec<D>(g.x));
-    put(p.v, i, vec<D>(g.v));
-    put(p.v_pred, i, vec<D>(g.v));
+    put(p.x, i, to_vec<D>(g.x));
+    put(p.v, i, to_vec<D>(g.v));
+    put(p.v_pred, i, to_vec<D>(g.v));
     p.m(i) = g.m, p.h0(i) = g.h0, p.rho(i) = g.rho;
     p.kh(i) = g.rho0 * power<D>(g.h0);
     p.id(i) = i;

@@ -2,7 +2,7 @@
 #pragma once
 #include <cmath>
 
-#include "kernels/fpm/voronoi.hpp"
+#include "kernels/fpm/cells/voronoi.hpp"
 #include "tests/support/cloud.hpp"
 
 namespace freshet::test {

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "kernels/linear/cg.hpp"
-#include "kernels/linear/particle_mesh.hpp"
+#include "kernels/linear/mesh/particle_mesh.hpp"
 #include "tests/support/pair_system.hpp"
 
 namespace freshet::test {

@@ -1,5 +1,5 @@
 // The tabulated bed: a cubic spline through its bottom particles.
-#include "kernels/bed_spline.hpp"
+#include "kernels/ground/bed_spline.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // The multigrid cycle on a box of nodes, open and periodic: against dense solves, symmetric and, around empty nodes too, near the inverse.
-#include "kernels/linear/box_multigrid.hpp"
+#include "kernels/linear/mesh/box_multigrid.hpp"
 
 #include <catch2/catch.hpp>
 

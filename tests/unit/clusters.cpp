@@ -10,7 +10,6 @@
 #include "tests/support/cloud.hpp"
 
 using namespace freshet;
-using test::Point;
 
 namespace {
 

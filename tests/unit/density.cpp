@@ -1,9 +1,9 @@
 // The density Newton, alpha, d rho/dt and the velocity gradient against direct sums over all pairs.
-#include "kernels/swe/density.hpp"
+#include "kernels/swe/density/density.hpp"
 
 #include <catch2/catch.hpp>
 
-#include "kernels/swe/lattice.hpp"
+#include "kernels/swe/density/lattice.hpp"
 #include "tests/support/cloud.hpp"
 
 using namespace freshet;

@@ -1,12 +1,11 @@
 // Two bodies of water that come together: what is between them is air until they touch, however near that makes their surfaces.
 #include <catch2/catch.hpp>
 
-#include "kernels/fpm/area.hpp"
+#include "kernels/fpm/cells/area.hpp"
 #include "tests/support/fpm_points.hpp"
 
 using namespace freshet;
 using test::FlowPoints;
-using test::Point;
 
 namespace {
 

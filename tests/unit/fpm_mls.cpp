@@ -2,12 +2,12 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
-#include "kernels/fpm/stencils.hpp"
+#include "kernels/fpm/stencils/stencils.hpp"
 #include "tests/support/cloud.hpp"
 
 using namespace freshet;
 using namespace freshet::fpm;
-using freshet::test::Point;
+using freshet::Point;
 
 namespace {
 
@@ -177,7 +177,7 @@ TEST_CASE("Few neighbours or neighbours in a line leave derivatives bounded and 
 
 TEST_CASE("Gradients in layers of two rows stay within the slopes that there are, whichever way the layer lies") {
   const double angle = GENERATE(0.0, 0.5, 1.2, 1.57), thick = 0.6, c = std::cos(angle), s = std::sin(angle);
-  std::vector<test::Point> places;
+  std::vector<Point> places;
   test::Random random(5);
   for (int k = 0; k < 40; ++k) {
     const double along = 0.5 * k + random(-0.1, 0.1), across = k % 2 == 0 ? 0.0 : thick * (1 + random(-0.1, 0.1));

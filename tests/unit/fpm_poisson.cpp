@@ -2,12 +2,12 @@
 // iterations of BiCGStab, preconditioned on a mesh.
 #include <catch2/catch.hpp>
 
-#include "kernels/fpm/elliptic.hpp"
+#include "kernels/fpm/pressure/elliptic.hpp"
 #include "tests/support/cloud.hpp"
 
 using namespace freshet;
 using namespace freshet::fpm;
-using freshet::test::Point;
+using freshet::Point;
 
 namespace {
 

@@ -1,7 +1,7 @@
 // The free surface as a line: its level and its front.
 #include <catch2/catch.hpp>
 
-#include "kernels/fpm/surface_line.hpp"
+#include "kernels/fpm/cells/surface_line.hpp"
 #include "tests/support/fpm_points.hpp"
 
 using namespace freshet;
@@ -16,8 +16,8 @@ const fpm::VoronoiRule rule;
 struct Tilted {
   FlowPoints set;
   explicit Tilted(double slope, bool drops = true) : set(points(slope, drops), dx, {{{0, 3}, {0, 0}, {4, 0}, {4, 3}}}) { set.flags(); }
-  static std::vector<test::Point> points(double slope, bool drops) {
-    std::vector<test::Point> all;
+  static std::vector<Point> points(double slope, bool drops) {
+    std::vector<Point> all;
     for (int i = 0; i <= 20; ++i)
       for (int j = 0; j <= 10; ++j) all.push_back({i * dx, j * dx * (1 + slope * i * dx)});
     if (drops) all.insert(all.end(), {{1.0, 2.5}, {3.5, 1.0}});

@@ -1,6 +1,6 @@
 // The pair force against a scalar sum over all pairs, written from docs/formulas/swe.md (S15) to (S20), and
 // against its energy.
-#include "kernels/swe/internal_force.hpp"
+#include "kernels/swe/force/internal_force.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,7 +1,7 @@
 // bed.manning: a number, a raster or regions, how the reader turns each into n by place, and the table that friction uses.
 #include <catch2/catch.hpp>
 
-#include "kernels/nearest_table.hpp"
+#include "kernels/ground/nearest_table.hpp"
 #include "tests/unit/scene_files.hpp"
 
 using namespace freshet;

@@ -1,7 +1,7 @@
 // Merging: who merges with whom, what is left; and the smoothing length that follows the masses.
 #include <catch2/catch.hpp>
 
-#include "kernels/swe/refinement.hpp"
+#include "kernels/swe/split/refinement.hpp"
 #include "tests/support/cloud.hpp"
 
 using namespace freshet;

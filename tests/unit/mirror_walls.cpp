@@ -1,5 +1,5 @@
 // Walls of mirror images against a cloud in which the images are real particles.
-#include "kernels/walls.hpp"
+#include "kernels/walls/walls.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -8,8 +8,6 @@
 using namespace freshet;
 using test::Cloud;
 using test::Grain;
-using test::Point;
-using test::Polyline;
 
 namespace {
 

@@ -40,7 +40,7 @@ struct Flow {
   }
 };
 
-Grain particle(double depth, test::Point x = {0, 0}, test::Point v = {0, 0}) { return {x, v, depth, depth, 1.2}; }
+Grain particle(double depth, Point x = {0, 0}, Point v = {0, 0}) { return {x, v, depth, depth, 1.2}; }
 
 // Speed that a depth reaches on a slope of 1:100 with n = 0.03.
 template <int D>

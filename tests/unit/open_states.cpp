@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "kernels/open_states.hpp"
+#include "kernels/open/states.hpp"
 
 using namespace freshet;
 

@@ -21,7 +21,7 @@ struct Paired {
   RowOrder order{D, dx, test::wide(dx)};
   Pairs pairs;
 
-  explicit Paired(const std::vector<test::Point>& points) : fields(test::point_fields(D, points)) {
+  explicit Paired(const std::vector<Point>& points) : fields(test::point_fields(D, points)) {
     order.sort(fields);
     const Field<double> h = fields.real("h"), x = fields.real("x");
     for (int i = 0; i < fields.size(); ++i) h(i) = 1.3 * dx * (1 + 0.25 * x(i));
@@ -54,7 +54,7 @@ std::vector<std::vector<int>> counted(const PairView& view) {
 }
 
 template <int D>
-void check_pairs(const std::vector<test::Point>& points) {
+void check_pairs(const std::vector<Point>& points) {
   const Paired<D> p(points);
   const auto times = counted(p.pairs.view());
   long wrong = 0;

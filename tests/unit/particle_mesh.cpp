@@ -1,12 +1,12 @@
 // The particle-mesh preconditioner: symmetric, positive, and few iterations where plain CG takes hundreds.
-#include "kernels/linear/particle_mesh.hpp"
+#include "kernels/linear/mesh/particle_mesh.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <Eigen/Dense>
 
-#include "tests/support/solve_cost.hpp"
 #include "tests/support/recording.hpp"
+#include "tests/support/solve_cost.hpp"
 #include "tests/support/threads.hpp"
 
 using namespace freshet;

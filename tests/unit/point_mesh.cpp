@@ -1,5 +1,5 @@
 // The mesh preconditioner of scattered points: its symmetry, given points, free constants, and the same bits with any number of threads.
-#include "kernels/linear/point_mesh.hpp"
+#include "kernels/linear/mesh/point_mesh.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -20,7 +20,7 @@ struct Meshed {
 
   Meshed(int n, bool periodic) : order(2, 1.0 / n, {0, 1, 0, 1}) {
     test::Random random(5);
-    std::vector<test::Point> points;
+    std::vector<Point> points;
     for (int k = 0; k < n * n; ++k) points.push_back({(k % n + 0.5 + 0.4 * random(-1, 1)) / n, (k / n + 0.5 + 0.4 * random(-1, 1)) / n});
     fields = test::point_fields(2, points);
     order.sort(fields);

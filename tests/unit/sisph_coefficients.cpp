@@ -1,8 +1,8 @@
 // The free surface's matrix found anew in every product against the stored one.
 #include <catch2/catch.hpp>
 
-#include "kernels/sisph/closure.hpp"
-#include "kernels/sisph/surface.hpp"
+#include "kernels/sisph/pairs/closure.hpp"
+#include "kernels/sisph/surface/surface.hpp"
 #include "tests/support/cloud.hpp"
 
 using namespace freshet;
@@ -29,11 +29,11 @@ struct Basin {
 
   explicit Basin(const Setting& setting) : kernel(make_kernel<2>(setting.kernel, smoothing, false)) {
     constexpr int cells = 16, rim = 4;
-    std::vector<test::Point> points = test::lattice(2, {0, cells, 0, cells}, dx);
+    std::vector<Point> points = test::lattice(2, {0, cells, 0, cells}, dx);
     test::Random random(11);
     std::vector<int> held;
     const auto at_rim = [&](double c) { return c < rim * dx || c > (cells - rim) * dx; };
-    for (test::Point& p : points) {
+    for (Point& p : points) {
       held.push_back(!setting.walls && (at_rim(p[0]) || at_rim(p[1])) ? 1 : 0);
       for (std::size_t k = 0; k < 2; ++k) p[k] += random(-setting.disorder, setting.disorder) * dx;
     }

@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "kernels/sisph/surface.hpp"
+#include "kernels/sisph/surface/surface.hpp"
 
 using freshet::sisph::face_depth;
 

@@ -4,8 +4,8 @@
 #include <map>
 #include <utility>
 
-#include "kernels/sisph/closure.hpp"
-#include "kernels/sisph/gradient.hpp"
+#include "kernels/sisph/pairs/closure.hpp"
+#include "kernels/sisph/velocity/gradient.hpp"
 #include "tests/support/cloud.hpp"
 
 using namespace freshet;
@@ -22,11 +22,11 @@ struct Block {
   sisph::Geometry<D> g;
 
   explicit Block(double disorder, int cells = 16, int rim = 4) {
-    std::vector<test::Point> points = test::lattice(D, {0, cells, 0, D == 2 ? cells : 1}, dx);
+    std::vector<Point> points = test::lattice(D, {0, cells, 0, D == 2 ? cells : 1}, dx);
     const auto at_rim = [&](double c) { return c < rim * dx || c > (cells - rim) * dx; };
     test::Random random(7);
     std::vector<int> held;
-    for (test::Point& p : points) {
+    for (Point& p : points) {
       held.push_back(at_rim(p[0]) || (D == 2 && at_rim(p[1])) ? 1 : 0);
       for (int k = 0; k < D; ++k) p[static_cast<std::size_t>(k)] += random(-disorder, disorder) * dx;
     }

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "kernels/sisph/paths.hpp"
+#include "kernels/sisph/moving/paths.hpp"
 
 using namespace freshet::sisph;
 

@@ -1,5 +1,5 @@
 // Mirror pairs at walls: planes through the nearest point to the middle of a pair, images through right-angled corners.
-#include "kernels/sisph/walls.hpp"
+#include "kernels/sisph/walls/mirror_walls.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -10,7 +10,6 @@
 
 using namespace freshet;
 using sisph::MirrorWalls;
-using sisph::Polyline;
 using V2 = Vec<double, 2>;
 
 namespace {

@@ -1,6 +1,6 @@
 // The smoothing kernels: norm, slope, support.
 #include "kernels/choice.hpp"
-#include "kernels/smoothing.hpp"
+#include "kernels/smoothing/smoothing.hpp"
 
 #include <catch2/catch.hpp>
 

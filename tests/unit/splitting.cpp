@@ -4,8 +4,8 @@
 #include <limits>
 #include <map>
 
-#include "kernels/ids.hpp"
-#include "kernels/swe/refinement.hpp"
+#include "kernels/swe/split/refinement.hpp"
+#include "kernels/water/ids.hpp"
 #include "tests/support/cloud.hpp"
 
 using namespace freshet;
@@ -14,7 +14,7 @@ using test::Grain;
 
 namespace {
 
-constexpr double turn = 3.14159265358979323846 / 12, huge = 1e300;
+constexpr double turned = 3.14159265358979323846 / 12, huge = 1e300;
 
 swe::SplitOptions split_all(const swe::SplitPattern& pattern, double alpha, double area = 1e-9) {
   return {pattern, PlacedValue(area, {}), alpha, false, 0, 1 << 30};
@@ -133,7 +133,7 @@ TEST_CASE("splitting: the density that is left, scatter and gather") {
 
 TEST_CASE("splitting: no daughter lies on top of another, on a square and on a hexagonal lattice") {
   const double dx = 1, h = 1.2 * dx, fine = dx / std::sqrt(7.0);
-  const auto pattern = swe::split_pattern<2>(7, 0.92, 0.36, turn);
+  const auto pattern = swe::split_pattern<2>(7, 0.92, 0.36, turned);
   const bool square = GENERATE(true, false);
   double nearest = huge;
   for (int i = -1; i <= 1; ++i)
@@ -153,7 +153,7 @@ TEST_CASE("splitting: a daughter has alpha times its parent's h and, summed alon
   const auto parent = cloud.bind();
   parent.h(0) = 1.7;
   const double depth = parent.rho(0);
-  REQUIRE(split(cloud, split_all(swe::split_pattern<2>(7, 0.9, 0.4, turn), 0.9, 2.0)) == 1);
+  REQUIRE(split(cloud, split_all(swe::split_pattern<2>(7, 0.9, 0.4, turned), 0.9, 2.0)) == 1);
   const auto p = cloud.bind();
   REQUIRE(cloud.fields.size() == 7);
   for (int i = 0; i < 7; ++i) {
@@ -170,7 +170,7 @@ TEST_CASE("splitting: a daughter has alpha times its parent's h and, summed alon
 TEST_CASE("splitting: only what covers the area, is deep enough, is fluid and fits is split") {
   const double dx = 0.1;
   const auto water = test::still_water(2, test::lattice(2, {0, 4, 0, 4}, dx), dx, 0.3, 1.2);
-  const auto pattern = swe::split_pattern<2>(7, 0.92, 0.36, turn);
+  const auto pattern = swe::split_pattern<2>(7, 0.92, 0.36, turned);
   const auto count = [&](const swe::SplitOptions& options, const Field<int>& kind) {
     Cloud<2> cloud(water, dx);
     swe::Refinement<2> refinement(options, {}, {1.2, 9.81, 1, 1e300});
@@ -207,7 +207,7 @@ TEST_CASE("splitting: daughters are numbered by their parents, not by where thes
     const Field<int> id = cloud.fields.integer("id");
     for (int i = 0; i < n; ++i) id(i) = order[static_cast<std::size_t>(i)];
     CHECK(split(cloud, options) == 26);
-    std::map<int, test::Point> at;
+    std::map<int, Point> at;
     const swe::Particles<2> p = cloud.bind();
     for (int i = 0; i < cloud.fields.size(); ++i) at[p.id(i)] = {p.x.x(i), p.x.y(i)};
     return at;
@@ -242,7 +242,7 @@ TEST_CASE("splitting: daughters stay before the walls") {
   Cloud<2> open = cloud;
   open.walls.reset();
   open.fields = FieldSet(cloud.fields);
-  REQUIRE(split(cloud, split_all(swe::split_pattern<2>(7, 0.92, 0.36, turn), 0.92)) == 200);
+  REQUIRE(split(cloud, split_all(swe::split_pattern<2>(7, 0.92, 0.36, turned), 0.92)) == 200);
   CHECK(inside() == 1400);
 }
 

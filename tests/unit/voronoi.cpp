@@ -7,7 +7,6 @@
 
 using namespace freshet;
 using test::FlowPoints;
-using test::Point;
 
 namespace {
 
@@ -139,7 +138,7 @@ TEST_CASE("voronoi: triangles of any size fill the hull") {
 }
 
 TEST_CASE("voronoi: cells of points in a box of walls fill the box") {
-  const std::vector<test::Polyline> walls = {{{0, 0}, {0.9, 0}, {0.9, 0.7}, {0, 0.7}, {0, 0}}};
+  const std::vector<Polyline> walls = {{{0, 0}, {0.9, 0}, {0.9, 0.7}, {0, 0.7}, {0, 0}}};
   test::Random random(8);
   std::vector<Point> points;
   for (int k = 0; k < 60; ++k) points.push_back({random(0, 0.9), random(0, 0.7)});
@@ -199,7 +198,7 @@ TEST_CASE("voronoi: flat and wavy surfaces, rough by up to a fifth of a spacing,
 }
 
 TEST_CASE("voronoi: water in a tank has a surface on top only") {
-  const std::vector<test::Polyline> walls = {{{0, 2}, {0, 0}, {2, 0}, {2, 2}}};
+  const std::vector<Polyline> walls = {{{0, 2}, {0, 0}, {2, 0}, {2, 2}}};
   std::vector<Point> points;
   for (int j = 0; j <= 10; ++j)
     for (int i = 0; i <= 20; ++i) points.push_back({i * dx, j * dx});

@@ -1,5 +1,5 @@
 // What crosses a wall all the same is put back.
-#include "kernels/walls.hpp"
+#include "kernels/walls/walls.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -7,8 +7,6 @@
 
 using namespace freshet;
 using test::Cloud;
-using test::Point;
-using test::Polyline;
 
 namespace {
 
@@ -31,8 +29,8 @@ Moving reflected(const std::vector<Polyline>& lines, const Point& inside, const 
   cloud.add_walls(lines, inside);
   cloud.solve(test::fixed_h());
   const swe::Particles<D> p = cloud.bind();
-  put(p.x, 0, test::vec<D>(q.x));
-  put(p.v_pred, 0, 2.0 * test::vec<D>(q.v));
+  put(p.x, 0, to_vec<D>(q.x));
+  put(p.v_pred, 0, 2.0 * to_vec<D>(q.v));
   cloud.walls->reflect(cloud.clusters, p.x, p.v, p.v_pred);
   const Vec<double, D> v = at(p.v, 0), v_pred = at(p.v_pred, 0);
   CHECK(v_pred.x == Approx(2 * v.x));  // both velocities alike

@@ -1,6 +1,6 @@
 // Walls of modified virtual boundary particles: Vacondio 2010, Table 1.1 (with (1.8) corrected,
 // docs/formulas/swe.md (S30)), mass correction, mirrored velocities, pressure.
-#include "kernels/walls.hpp"
+#include "kernels/walls/walls.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -12,8 +12,6 @@ using namespace freshet;
 using test::Block;
 using test::Cloud;
 using test::Grain;
-using test::Point;
-using test::Polyline;
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "kernels/choice.hpp"
-#include "kernels/smoothing.hpp"
+#include "kernels/smoothing/smoothing.hpp"
 #include "tests/support/run_case.hpp"
 
 using namespace freshet;

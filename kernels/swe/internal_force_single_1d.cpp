@@ -1,7 +1,0 @@
-#include "kernels/swe/internal_force_loop.hpp"
-
-namespace freshet::swe {
-
-template void sum_force<1, true>(const ForceRequest<1>&);
-
-}  // namespace freshet::swe
