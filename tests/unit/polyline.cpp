@@ -13,7 +13,6 @@ using V2 = Vec<double, 2>;
 
 namespace {
 
-const double pi = std::acos(-1.0);
 const Polyline square{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 const Polyline notched{{0, 0}, {4, 0}, {4, 3}, {2, 1}, {0, 3}};  // a V cut into a box from above
 
