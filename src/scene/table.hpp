@@ -15,6 +15,7 @@
 #include "src/scene/diagnostics.hpp"
 #include "src/scene/scene.hpp"
 #include "src/scene/toml_names.hpp"
+#include "src/text.hpp"
 
 namespace freshet::input {
 
@@ -28,8 +29,8 @@ struct Context {
   std::vector<std::string> notes;  // what the reader decided and the user may want to know
 };
 
-std::string shown(double number);    // the shortest text that reads back to the same number
-std::string rounded(double number);  // eight digits, for places
+using freshet::shown;
+inline std::string rounded(double place) { return brief(place, 8); }
 
 // A key of a table, named or not.
 struct Slot {
