@@ -10,8 +10,8 @@
 #include "kernels/linear/cg.hpp"
 #include "kernels/linear/mesh/particle_mesh.hpp"
 #include "kernels/sisph/pairs/coefficients.hpp"
-#include "src/run/fastest.hpp"
-#include "src/run/peaks.hpp"
+#include "src/run/timing/fastest.hpp"
+#include "src/run/timing/peaks.hpp"
 
 namespace {
 

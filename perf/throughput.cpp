@@ -10,7 +10,7 @@
 
 #include "cellgrid/runtime.hpp"
 #include "perf/passes.hpp"
-#include "src/run/peaks.hpp"
+#include "src/run/timing/peaks.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-// freshet: see src/run/cli.cpp for the commands.
-#include "src/run/cli.hpp"
+// freshet: see src/run/commands/cli.cpp for the commands.
+#include "src/run/commands/cli.hpp"
 
 int main(int argc, char** argv) { return freshet::run_cli(argc, argv); }

@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "src/io/files.hpp"
-#include "src/io/number.hpp"
+#include "src/text.hpp"
 
 namespace freshet {
 

@@ -91,9 +91,8 @@ void write_all(const std::string& path, const Checkpoint& checkpoint, const Fiel
 }  // namespace
 
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint, const FieldSet& fields) {
-  const auto parent = std::filesystem::path(path).parent_path();
   const std::string temporary = path + ".new";
-  require_space(parent.empty() ? "." : parent.string(), bytes_of(checkpoint, fields));
+  require_space(folder_of(path), bytes_of(checkpoint, fields));
   try {
     write_all(temporary, checkpoint, fields);
     replace_file(temporary, path);

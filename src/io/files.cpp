@@ -24,11 +24,6 @@ namespace {
   throw IoError(text);
 }
 
-std::string folder_of(const std::string& path) {
-  const auto parent = fs::path(path).parent_path();
-  return parent.empty() ? "." : parent.string();
-}
-
 void sync(const std::string& path, int flags) {
   const int descriptor = ::open(path.c_str(), flags);
   if (descriptor < 0) fail(path, "cannot be opened", errno);
@@ -38,6 +33,15 @@ void sync(const std::string& path, int flags) {
 }
 
 }  // namespace
+
+std::string folder_of(const std::string& path) {
+  const auto parent = fs::path(path).parent_path();
+  return parent.empty() ? "." : parent.string();
+}
+
+std::string path_in(const std::string& directory, const std::string& name) {
+  return (fs::path(directory) / name).string();
+}
 
 void make_directory(const std::string& directory) {
   std::error_code error;

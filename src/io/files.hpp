@@ -5,6 +5,9 @@
 
 namespace freshet {
 
+std::string folder_of(const std::string& path);
+std::string path_in(const std::string& directory, const std::string& name);
+
 // Makes the directory and its parents where they are missing.
 void make_directory(const std::string& directory);
 // Throws unless the file system of this directory has room for so many bytes.

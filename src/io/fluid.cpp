@@ -43,6 +43,11 @@ const NamedField<int>* find_integer(const FieldSet& fields, const std::string& n
   return find(fields.integers(), name);
 }
 
+Field<double> field_or(const FieldSet& fields, const std::string& name, const std::string& otherwise) {
+  const auto* field = find_real(fields, name);
+  return field ? field->data : find_real(fields, otherwise)->data;
+}
+
 Fluid fluid_on_host(const FieldSet& fields) {
   const auto indices = fluid_indices(fields);
   const auto real = [&](const char* name) { return gather(find_real(fields, name), indices); };

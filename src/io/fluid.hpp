@@ -22,6 +22,7 @@ int fluid_count(const FieldSet& fields);
 
 // The named field, or nullptr if the method does not have it.
 const NamedField<double>* find_real(const FieldSet& fields, const std::string& name);
+Field<double> field_or(const FieldSet& fields, const std::string& name, const std::string& otherwise);
 const NamedField<int>* find_integer(const FieldSet& fields, const std::string& name);
 
 }  // namespace freshet

@@ -9,7 +9,7 @@
 
 #include "src/errors.hpp"
 #include "src/io/files.hpp"
-#include "src/io/number.hpp"
+#include "src/text.hpp"
 
 namespace freshet {
 namespace {
@@ -33,10 +33,6 @@ std::string text_of(const GaugeRow& row) {
   }
   return line;
 }
-
-}  // namespace
-
-namespace {
 
 const char* title(Gauge::What what) {
   return what == Gauge::What::pressure ? " pressure [Pa]" : what == Gauge::What::front ? " front [m]" : " elevation [m]";

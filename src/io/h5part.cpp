@@ -1,7 +1,6 @@
 #include "src/io/h5part.hpp"
 
 #include <algorithm>
-#include <filesystem>
 
 #include "src/errors.hpp"
 #include "src/io/files.hpp"
@@ -30,11 +29,6 @@ std::vector<int> step_numbers(const hdf5::File& file) {
   }
   std::sort(steps.begin(), steps.end());
   return steps;
-}
-
-std::string folder_of(const std::string& path) {
-  const auto parent = std::filesystem::path(path).parent_path();
-  return parent.empty() ? "." : parent.string();
 }
 
 // What incompressible methods have instead of a depth.

@@ -4,12 +4,15 @@
 #include <cmath>
 #include <string>
 
-#include "src/io/number.hpp"
+#include "src/text.hpp"
 
 namespace freshet {
 
 class JsonWriter {
  public:
+  // depth > 0: of members that another writer takes over.
+  explicit JsonWriter(int depth = 0) : depth_(depth) {}
+
   JsonWriter& begin(const std::string& key = "") { return open(key, '{'); }
   JsonWriter& end() { return close('}'); }
   JsonWriter& array(const std::string& key = "") { return open(key, '['); }
@@ -21,6 +24,13 @@ class JsonWriter {
   JsonWriter& value(const std::string& key, int number) { return item(key, std::to_string(number)); }
   JsonWriter& value(const std::string& key, const std::string& text) { return item(key, quoted(text)); }
 
+  // Text of the right depth.
+  JsonWriter& members(const std::string& text) {
+    text_ += (first_ ? "" : ",") + text;
+    first_ = false;
+    return *this;
+  }
+
   const std::string& text() const { return text_; }
   static std::string quoted(const std::string& text);
 
@@ -30,7 +40,7 @@ class JsonWriter {
   JsonWriter& close(char bracket);
 
   std::string text_;
-  int depth_ = 0;
+  int depth_;
   bool first_ = true;  // in the innermost object or array
 };
 

@@ -1,29 +1,18 @@
 // The read-back of a scene for `freshet check`.
 #include <algorithm>
-#include <cstdio>
 
 #include "src/scene/choices.hpp"
 #include "src/scene/diagnostics.hpp"
 #include "src/scene/read.hpp"
+#include "src/text.hpp"
 
 namespace freshet {
 namespace {
 
 using input::counted;
 
-// Six digits, for people.
-std::string brief(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", number);
-  return text;
-}
-
-// Coordinates: northings have seven digits before the point.
-std::string place(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", number);
-  return text;
-}
+// Northings have seven digits before the point.
+std::string place(double coordinate) { return brief(coordinate, 9); }
 
 std::string extent(const Domain& domain) {
   const std::string x = "x " + place(domain.low[0]) + " to " + place(domain.high[0]);
@@ -93,11 +82,11 @@ std::string run_up(const RunUp& run_up, const Domain& domain) {
   return out + ", measured " + brief((*run_up.measured)[0]) + " to " + brief((*run_up.measured)[1]) + " m";
 }
 
-std::string profile(const Transect& profile, const Domain& domain) {
-  std::string out = profile.name + " from " + point(profile.line[0], domain) + " to " + point(profile.line[1], domain);
-  out += " at t = " + brief(profile.time) + " s";
-  if (!profile.measured) return out;
-  const Series& measured = *profile.measured;
+std::string transect(const Transect& line, const Domain& domain) {
+  std::string out = line.name + " from " + point(line.line[0], domain) + " to " + point(line.line[1], domain);
+  out += " at t = " + brief(line.time) + " s";
+  if (!line.measured) return out;
+  const Series& measured = *line.measured;
   return out + ", measured " + counted(measured.t.size(), "row") + " from " + brief(measured.t.front()) + " to " +
          brief(measured.t.back()) + " m";
 }
@@ -178,7 +167,7 @@ std::vector<std::string> describe(const Scene& scene) {
   for (const OpenBoundary& b : scene.boundaries) add("boundary", boundary(b, scene.domain));
   for (const Gauge& g : scene.gauges) add("gauge", gauge(g, scene.domain));
   for (const RunUp& r : scene.run_ups) add("run-up", run_up(r, scene.domain));
-  for (const Transect& p : scene.profiles) add("profile", profile(p, scene.domain));
+  for (const Transect& p : scene.profiles) add("profile", transect(p, scene.domain));
   add("time", "0 to " + brief(scene.end_time) + " s");
   add("method", numerics(scene));
   if (scene.split) add("split", "into " + std::to_string(scene.split->into) + " from " + area(scene.split->area));

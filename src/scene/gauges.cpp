@@ -17,7 +17,7 @@ void require_new_name(Table& section, const std::vector<Station>& stations, cons
 }
 
 // 2-D: two points; 1-D: two numbers.
-std::array<Point, 2> read_profile_line(Table& section, const Scene& scene) {
+std::array<Point, 2> transect_line(Table& section, const Scene& scene) {
   std::vector<Point> ends;
   if (scene.domain.dimension == 1) {
     for (const double x : section.numbers("line", "two numbers (x, in m)").required()) ends.push_back({x, 0});
@@ -93,21 +93,21 @@ void read_run_up(Table& section, Scene& scene) {
   scene.run_ups.push_back(std::move(run_up));
 }
 
-void read_profile(Table& section, Scene& scene) {
-  Transect profile;
-  profile.name = section.text("name").required();
-  require_new_name(section, scene.profiles, profile.name);
-  profile.line = read_profile_line(section, scene);
-  profile.one_dimensional = scene.domain.dimension == 1;
+void read_transect(Table& section, Scene& scene) {
+  Transect transect;
+  transect.name = section.text("name").required();
+  require_new_name(section, scene.profiles, transect.name);
+  transect.line = transect_line(section, scene);
+  transect.one_dimensional = scene.domain.dimension == 1;
   const double end = scene.end_time;
-  profile.time = section.number("time", "s")
+  transect.time = section.number("time", "s")
                      .at_least(0)
                      .check([end](double t) { return !(end > 0) || t <= end; }, "at most time.end (" + shown(end) + ")")
                      .required();
-  profile.spacing = section.number("spacing", "m").positive().otherwise(scene.water.spacing);
+  transect.spacing = section.number("spacing", "m").positive().otherwise(scene.water.spacing);
   Table measured = section.table("measured");
-  if (measured.given()) profile.measured = read_series(measured, SeriesUse::measured, "x");
-  scene.profiles.push_back(std::move(profile));
+  if (measured.given()) transect.measured = read_series(measured, SeriesUse::measured, "x");
+  scene.profiles.push_back(std::move(transect));
 }
 
 }  // namespace freshet::input

@@ -78,7 +78,7 @@ void read_sections(Table& root, Scene& scene) {
     sph.error("well_balanced", "a well-balanced run needs a basin without open boundaries", "remove one of the two");
   read_each(root, "gauge", scene, read_gauge);
   read_each(root, "runup", scene, read_run_up);
-  read_each(root, "profile", scene, read_profile);
+  read_each(root, "profile", scene, read_transect);
   read_output(output, scene);
   read_rasters(raster, scene);
   read_limits(limits, scene);

@@ -42,7 +42,7 @@ void read_wall(Table& section, Scene& scene);    // one [[wall]]; needs the boun
 void note_leaks(Table& root, const Scene& scene);  // open ends of walls; after all walls
 void read_gauge(Table& section, Scene& scene);   // one [[gauge]]
 void read_run_up(Table& section, Scene& scene);  // one [[runup]]
-void read_profile(Table& section, Scene& scene);  // one [[profile]]; needs time.end and water.spacing
+void read_transect(Table& section, Scene& scene);  // one [[profile]]; needs time.end and water.spacing
 void read_output(Table& section, Scene& scene);  // [output]
 void read_rasters(Table& section, Scene& scene);  // [raster]; needs output.every
 void read_limits(Table& section, Scene& scene);  // [limits]

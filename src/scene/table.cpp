@@ -4,25 +4,8 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 
 namespace freshet::input {
-
-std::string shown(double number) {
-  char text[32];
-  for (int digits = 6; digits <= 17; ++digits) {
-    std::snprintf(text, sizeof text, "%.*g", digits, number);
-    if (std::strtod(text, nullptr) == number) break;
-  }
-  return text;
-}
-
-std::string rounded(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.8g", number);
-  return text;
-}
 
 KeyNote& Context::note(const std::string& path, const std::string& what) {
   auto known = std::find_if(keys.begin(), keys.end(), [&](const KeyNote& k) { return k.path == path; });

@@ -17,6 +17,7 @@
 #include "src/scene/read.hpp"
 #include "src/scene/scene.hpp"
 #include "src/scene/toml_names.hpp"
+#include "src/text.hpp"
 
 namespace freshet::input {
 
@@ -33,8 +34,8 @@ struct Context {
   std::vector<KeyNote> keys;       // in the order in which they were asked for
 };
 
-std::string shown(double number);    // the shortest text that reads back to the same number
-std::string rounded(double number);  // eight digits, for places
+using freshet::shown;
+inline std::string rounded(double place) { return brief(place, 8); }
 
 // A value as a scene would write it; "" where it cannot be said.
 template <class T>

@@ -20,9 +20,9 @@ struct Outcome {
 
 Outcome outcome(const std::string& scene, double depth, const std::vector<std::string>& overrides) {
   try {
-    const Summary s = test::run_case("stress/" + scene, overrides);
-    const double scale = depth > 0 ? s.mass.initial * 9.81 * depth : s.energy.kinetic_start;
-    const double gained = s.energy.kinetic_end + s.energy.potential_end - s.energy.kinetic_start - s.energy.potential_start;
+    const test::Results s = test::run_case("stress/" + scene, overrides);
+    const double scale = depth > 0 ? s.mass.initial * 9.81 * depth : s.start.kinetic;
+    const double gained = s.end.kinetic + s.end.potential - s.start.kinetic - s.start.potential;
     return {false, "", gained / scale, s.mass.final / s.mass.initial - 1};
   } catch (const Diverged& why) {
     return {true, why.what(), 0, 0};

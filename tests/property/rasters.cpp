@@ -7,7 +7,7 @@
 #include <set>
 
 #include "src/run/driver.hpp"
-#include "src/run/rasters.hpp"
+#include "src/run/record/rasters.hpp"
 #include "tests/support/recording.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/scratch.hpp"

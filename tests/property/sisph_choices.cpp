@@ -20,6 +20,6 @@ TEST_CASE("sisph: conservative pressure wants two passes and water everywhere") 
 }
 
 TEST_CASE("sisph: still water in a round basin, as the summary sees it") {
-  const Summary s = test::run_case("rest_circle", {"scene.method=sisph", "water.start=cells", "time.end=50"});
+  const test::Results s = test::run_case("rest_circle", {"scene.method=sisph", "water.start=cells", "time.end=50"});
   CHECK(s.steady.max_speed_rel <= 1e-12);
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/smoothing/smoothing.hpp"
 #include "src/run/driver.hpp"
 #include "tests/support/scratch.hpp"
 #include "tests/support/skips.hpp"
@@ -179,6 +180,8 @@ TEST_CASE("skips: dry land around changes neither launches nor results") {
 }
 
 TEST_CASE("skips: the run loop looks at every particle once, recorders that the scene names add their own launch") {
+  const auto observers = [](const Scene& of) { return make_observers(of, "").size(); };
+  CHECK(observers(drop()) == 4);  // the monitor, those of stability and energy, and the particles' output
   const Loop bare = loop_of(drop());
   const auto step = bare_step(1);
   Names expected{step.begin(), step.end()};
@@ -193,11 +196,13 @@ TEST_CASE("skips: the run loop looks at every particle once, recorders that the 
   Transect line;
   line.name = "line", line.line = {{{-0.5, 0}, {0.5, 0}}}, line.time = 1e6, line.spacing = 0.1;
   scene.profiles = {line};
+  CHECK(observers(scene) == 4 + 3);
   expected.insert({"sampling::depth", "sampling::run_up"});
   CHECK(loop_of(scene).labels == expected);
 
   scene = drop();
   scene.compare.steady = true;
+  CHECK(observers(scene) == 4 + 1);
   CHECK(minus(loop_of(scene).labels, bare.labels) == Names{"run::largest_speed"});
 
   scene = drop();

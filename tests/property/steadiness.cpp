@@ -1,7 +1,8 @@
 // What is said of a steady flow: the largest speed over time and the rate at which depths change.
 #include <catch2/catch.hpp>
 
-#include "src/run/steady.hpp"
+#include "src/run/observers.hpp"
+#include "src/run/watch/steadiness.hpp"
 #include "tests/support/scenes.hpp"
 
 using namespace freshet;
@@ -22,8 +23,8 @@ Scene slosh() {
 TEST_CASE("the rate of change is that of the particles' own depths") {
   test::Flow flow(slosh());
   flow.many_steps(40);
-  SteadyRecorder recorder(slosh());
-  recorder.begin(*flow.method);
+  SteadinessWatch watch(slosh());
+  watch.begin(*flow.method);
   const double dt = 1e-4;  // s: the rates themselves change within 5 s
   flow.step(dt);
   const auto before = flow.by_id("depth");
@@ -31,7 +32,7 @@ TEST_CASE("the rate of change is that of the particles' own depths") {
   const auto after = flow.by_id("depth");
   double sum = 0;
   for (std::size_t k = 0; k < before.size(); ++k) sum += std::pow(1 - before[k] / after[k], 2);
-  const Steadiness steady = recorder.result(*flow.method, dt);
+  const Steadiness steady = watch.result(*flow.method, {0, 0, dt});
   // Newton's tolerance of 1e-5 on depths that change by 1e-6 in the step would hide the difference were it not for the
   // extrapolation, which starts each solution within a hundredth of that.
   CHECK(steady.thesis_ls == Approx(std::sqrt(sum)).epsilon(0.02));
@@ -41,19 +42,19 @@ TEST_CASE("the rate of change is that of the particles' own depths") {
 TEST_CASE("the largest speed is that over all steps, relative to the first depth, and survives a restart") {
   const Scene scene = slosh();
   test::Flow flow(scene);
-  SteadyRecorder recorder(scene);
-  recorder.begin(*flow.method);
+  SteadinessWatch watch(scene);
+  watch.begin(*flow.method);
   double fastest = 0;
   flow.run(6, [&] {  // nearly half a period: the fastest moment, after a quarter, is over
-    recorder.record(*flow.method);
+    watch.after_step(*flow.method, {});
     fastest = std::max(fastest, flow.largest_speed());
   });
   REQUIRE(fastest > 1.2 * flow.largest_speed());
   Values values;
-  recorder.save(values);
-  SteadyRecorder restored(scene);
-  restored.restore(values);
-  const Steadiness steady = restored.result(*flow.method, 1);
+  watch.save(values);
+  SteadinessWatch restored(scene);
+  restored.restore(values, {});
+  const Steadiness steady = restored.result(*flow.method, {0, 0, 1});
   CHECK(steady.end_speed_rel * fastest == Approx(steady.max_speed_rel * flow.largest_speed()));  // the same celerity
   const double deepest = 1.1;  // m, at the wall less half a spacing; the lattice sum at eta = 1 is exact to the slope's curvature
   CHECK(steady.max_speed_rel == Approx(fastest / std::sqrt(9.81 * deepest)).epsilon(5e-3));
@@ -61,14 +62,7 @@ TEST_CASE("the largest speed is that over all steps, relative to the first depth
 
 TEST_CASE("nothing is recorded unless the scene wants it") {
   Scene scene = slosh();
+  CHECK(find<SteadinessWatch>(make_observers(scene, "")));
   scene.compare.steady = false;
-  test::Flow flow(scene);
-  SteadyRecorder recorder(scene);
-  recorder.begin(*flow.method);
-  flow.many_steps(3);
-  recorder.record(*flow.method);
-  Values values;
-  recorder.save(values);
-  CHECK_FALSE(recorder.wanted());
-  CHECK(values.at("steady") == std::vector<double>{0, 0});
+  CHECK_FALSE(find<SteadinessWatch>(make_observers(scene, "")));
 }

@@ -8,15 +8,15 @@ using namespace freshet;
 
 namespace {
 
-Summary run(const std::string& scene, const std::vector<std::string>& overrides) { return test::run_case("stress/" + scene, overrides); }
+test::Results run(const std::string& scene, const std::vector<std::string>& overrides) { return test::run_case("stress/" + scene, overrides); }
 
 // The limits of tools/stress, with d the depth that the scene starts from: energy in M g d/2, momentum in M sqrt(g d).
-void require_sound(const Summary& s, double depth) {
+void require_sound(const test::Results& s, double depth) {
   const double g = 9.81, mass = s.mass.final;
-  const double gained = s.energy.kinetic_end + s.energy.potential_end - s.energy.kinetic_start - s.energy.potential_start;
+  const double gained = s.end.kinetic + s.end.potential - s.start.kinetic - s.start.potential;
   CHECK(s.mass.relative_error < 1e-10);
   CHECK(gained / (0.5 * mass * g * depth) < 1e-3);
-  CHECK(std::abs(s.energy.momentum_end.second) / (mass * std::sqrt(g * depth)) < 1e-2);  // the scenes are symmetric about y
+  CHECK(std::abs(s.end.momentum[1]) / (mass * std::sqrt(g * depth)) < 1e-2);  // the scenes are symmetric about y
 }
 
 }  // namespace
@@ -24,9 +24,9 @@ void require_sound(const Summary& s, double depth) {
 TEST_CASE("stress: disorder, datum, origin and thin water leave a run sound") {
   const auto check = [](const std::string& scene, double depth, const std::vector<std::string>& overrides) {
     CAPTURE(scene, overrides);
-    const Summary s = run(scene, overrides);
+    const test::Results s = run(scene, overrides);
     require_sound(s, depth);
-    CHECK(s.warnings.empty());
+    CHECK(s.report.warnings.empty());
   };
   check("basin", 0.5, {"time.end=2", "water.disorder=0.3"});
   check("hump", 0.5, {"time.end=2", "bed.z=1000 + 0.1*exp(-20*((x-0.5)^2+(y-0.5)^2))", "water.surface=1000.5 + 0.05*cos(pi*x/2)"});
@@ -38,21 +38,21 @@ TEST_CASE("stress: disorder, datum, origin and thin water leave a run sound") {
 
 // A film without friction shoots down at 1 m/s where waves go at 0.03 m/s: a step of the waves alone carries it past the wall.
 TEST_CASE("stress: thin fast water does not jump past a wall") {
-  const Summary s = run("film", {"bed.manning=0", "time.end=4"});
+  const test::Results s = run("film", {"bed.manning=0", "time.end=4"});
   CHECK(s.simulated == 4);
   CHECK(s.mass.relative_error < 1e-10);
 }
 
 // Particles of 1e-9 of the depth beside deep ones; the level right of the step is that of the bed.
 TEST_CASE("stress: a surface level with the bed leaves no rounding that grows") {
-  const Summary s = run("step", {"bed.shape.right=0.3", "time.end=8"});
+  const test::Results s = run("step", {"bed.shape.right=0.3", "time.end=8"});
   require_sound(s, 0.5);
 }
 
 TEST_CASE("stress: past the stable step a run warns") {
-  const Summary s = run("basin", {"time.cfl=1.2", "time.end=4"});
-  REQUIRE_FALSE(s.warnings.empty());
-  CHECK_THAT(s.warnings[0], Catch::Contains("help: the time step may be too long"));
+  const test::Results s = run("basin", {"time.cfl=1.2", "time.end=4"});
+  REQUIRE_FALSE(s.report.warnings.empty());
+  CHECK_THAT(s.report.warnings[0], Catch::Contains("help: the time step may be too long"));
 }
 
 // Every second particle is put exactly onto its neighbour: pairs without a direction, twice the mass in half the places.

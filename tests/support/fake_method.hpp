@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "src/method.hpp"
+#include "src/reference/exact.hpp"
 #include "src/scene/place.hpp"
 
 namespace freshet::test {
@@ -161,6 +162,12 @@ class FakeMethod : public Method {
     return -1;
   }
 
+  std::vector<int> by_id() const {
+    std::vector<int> places(static_cast<std::size_t>(fields_.size()));
+    for (int i = 0; i < fields_.size(); ++i) places[static_cast<std::size_t>(id()(i))] = i;
+    return places;
+  }
+
   void spoil() {
     const int i = index_of(trouble.id);
     using Kind = Trouble::Kind;
@@ -180,7 +187,7 @@ class FakeMethod : public Method {
     PointState state;
     state.bed = 0.1 * point[0];
     double sum = 0, weights = 0;
-    for (int i = 0; i < fields_.size(); ++i) {
+    for (const int i : by_id()) {  // whoever asks for rows() changes the order in memory
       const double w = std::max(0.0, 2 - distance(i, point) / get("h")(i));
       sum += w * get("depth")(i);
       weights += w;
@@ -218,6 +225,25 @@ inline Scene fake_scene(int dimension = 2) {
   run_up.at = {0.9, 0.5};
   run_up.radius = 0.1;
   scene.run_ups = {run_up};
+  return scene;
+}
+
+// The same with everything asked for that can be observed; whatever can be measured is.
+inline Scene observed_scene(int dimension = 2) {
+  Scene scene = fake_scene(dimension);
+  scene.gauges[0].measured = Series{{0, 1}, {1, 1.1}};
+  Transect line;
+  line.name = "line", line.line = {{{0.1, 0.5}, {0.9, 0.5}}}, line.one_dimensional = dimension == 1;
+  line.time = 0.27, line.spacing = 0.1;
+  scene.profiles = {line};
+  scene.compare.exact = stoker(2, 1, 0.5, 9.81);
+  scene.compare.samples = 3, scene.compare.window = 0.3;
+  scene.compare.times = {0.1, 0.4};
+  scene.compare.steady = true;
+  scene.rasters = Rasters{};
+  scene.rasters->spacing = 0.1, scene.rasters->every = 0.15;
+  scene.rasters->what = {Rasters::Quantity::depth, Rasters::Quantity::surface};
+  scene.rasters->maxima = true;
   return scene;
 }
 

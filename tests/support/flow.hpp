@@ -6,7 +6,7 @@
 
 #include "build_info.hpp"
 #include "src/fpm/solver.hpp"
-#include "src/run/events.hpp"
+#include "src/run/observe/events.hpp"
 #include "src/scene/read.hpp"
 
 namespace freshet::test {
@@ -20,13 +20,13 @@ class FlowRun {
  public:
   explicit FlowRun(const std::string& name, const std::vector<std::string>& overrides = {})
       : FlowRun(read_scene(std::string(build::source_dir) + "/cases/" + name + ".toml", overrides)) {}
-  explicit FlowRun(const Scene& of) : scene(of), solver(scene), events_(scene) {}
+  explicit FlowRun(const Scene& of) : scene(of), solver(scene), outputs_(regular_times(scene.output.every, scene.end_time)) {}
 
   // With steps that end on the scene's output times and at t.
   void run_to(double t) {
     while (clock.t < t) {
-      while (events_.outputs.due(clock.t)) events_.outputs.advance();
-      const Stride stride = events_.shorten(clock, solver.stable_dt(), t);
+      outputs_.skip_past(clock.t);
+      const Stride stride = stride_towards(std::min(outputs_.next(), t), clock, solver.stable_dt());
       solver.step(clock.t, stride.dt);
       clock = {stride.until, clock.step + 1};
       most_iterations = std::max(most_iterations, solver.pressure_report().solve.iterations);
@@ -53,7 +53,7 @@ class FlowRun {
   int most_iterations = 0;
 
  private:
-  Events events_;
+  Timetable outputs_;
 };
 
 }  // namespace freshet::test

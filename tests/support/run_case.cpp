@@ -3,7 +3,6 @@
 #include <cstdlib>
 
 #include "build_info.hpp"
-#include "src/run/gauge_stats.hpp"
 #include "src/scene/read.hpp"
 #include "tests/support/scratch.hpp"
 
@@ -11,6 +10,22 @@ namespace freshet::test {
 
 Scene read_case(const std::string& name, const std::vector<std::string>& overrides) {
   return read_scene(std::string(build::source_dir) + "/cases/" + name + ".toml", overrides);
+}
+
+Results results_of(const Driver& driver, const Method& method) {
+  const Observers& all = driver.observers();
+  Results r;
+  static_cast<Summary&>(r) = driver.summary();
+  r.mass = find<Monitor>(all)->balance(method.totals());
+  r.start = find<EnergyWatch>(all)->at_start();
+  r.end = method.mechanics();
+  if (const auto* gauges = find<GaugeRecorder>(all)) r.gauges = gauges->results();
+  if (const auto* run_ups = find<RunUpRecorder>(all)) r.run_ups = run_ups->results();
+  if (const auto* transects = find<TransectRecorder>(all)) r.transects = transects->results();
+  if (const auto* steadiness = find<SteadinessWatch>(all)) r.steady = steadiness->result(method, driver.clock());
+  if (const auto* errors = find<ErrorRecorder>(all))
+    r.errors = errors->at_end(method, driver.clock()), r.errors_at = errors->snapshots();
+  return r;
 }
 
 CaseRun finish_case(const std::string& name, const std::vector<std::string>& overrides) {
@@ -22,12 +37,13 @@ CaseRun finish_case(const std::string& name, const std::vector<std::string>& ove
   Driver driver(scene, *method, options);
   driver.begin();
   driver.run();
-  CaseRun run{driver.summary(), {}, fluid_on_host(method->fields()), method};
-  for (std::size_t g = 0; g < scene.gauges.size(); ++g) run.gauges.push_back(gauge_series(driver.gauge_rows(), g));
+  CaseRun run{results_of(driver, *method), {}, fluid_on_host(method->fields()), method};
+  if (const auto* gauges = find<GaugeRecorder>(driver.observers()))
+    for (std::size_t g = 0; g < scene.gauges.size(); ++g) run.gauges.push_back(gauge_series(gauges->rows(), g));
   return run;
 }
 
-Summary run_case(const std::string& name, const std::vector<std::string>& overrides) {
+Results run_case(const std::string& name, const std::vector<std::string>& overrides) {
   return finish_case(name, overrides).summary;
 }
 

@@ -9,7 +9,13 @@
 #include "src/io/fluid.hpp"
 #include "src/method.hpp"
 #include "src/run/driver.hpp"
-#include "src/run/gauge_stats.hpp"
+#include "src/run/record/errors.hpp"
+#include "src/run/record/gauges.hpp"
+#include "src/run/record/run_ups.hpp"
+#include "src/run/record/transects.hpp"
+#include "src/run/watch/energy.hpp"
+#include "src/run/watch/monitor.hpp"
+#include "src/run/watch/steadiness.hpp"
 #include "src/scene/read.hpp"
 #include "tests/support/scratch.hpp"
 
@@ -17,8 +23,22 @@ namespace freshet::test {
 
 Scene read_case(const std::string& name, const std::vector<std::string>& overrides = {});
 
+// A run's summary and what stands in it, as numbers.
+struct Results : Summary {
+  MassBalance mass;
+  Mechanics start, end;
+  std::vector<GaugeResult> gauges;
+  std::vector<RunUpResult> run_ups;
+  std::vector<TransectResult> transects;
+  ErrorNorms errors;  // at the end; unknown without an exact solution
+  std::vector<ErrorsAt> errors_at;
+  Steadiness steady;
+};
+
+Results results_of(const Driver& driver, const Method& method);
+
 struct CaseRun {
-  Summary summary;
+  Results summary;
   std::vector<Series> gauges;  // m, elevations in the order of the scene
   Fluid fluid;                 // at the end
   std::shared_ptr<const Method> method;  // likewise
@@ -34,7 +54,7 @@ struct CaseRun {
 
 CaseRun finish_case(const std::string& name, const std::vector<std::string>& overrides = {});
 
-Summary run_case(const std::string& name, const std::vector<std::string>& overrides = {});
+Results run_case(const std::string& name, const std::vector<std::string>& overrides = {});
 
 // Whether the Okushiri benchmark's files are where a scene would find them.
 bool has_okushiri_data();

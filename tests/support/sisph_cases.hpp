@@ -12,7 +12,7 @@ using Keys = std::vector<std::string>;
 
 struct CaseError {
   double depth_l2;  // m, root mean square over the particles of the domain
-  Summary summary;
+  Results summary;
   StepReport report;
 };
 

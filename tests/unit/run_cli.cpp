@@ -6,11 +6,13 @@
 
 #include <csignal>
 #include <filesystem>
+#include <set>
 #include <stdexcept>
 
 #include "src/errors.hpp"
 #include "src/io/files.hpp"
-#include "src/run/cli.hpp"
+#include "src/run/commands/cli.hpp"
+#include "src/run/commands/commands.hpp"
 #include "tests/support/fake_method.hpp"
 #include "tests/support/scratch.hpp"
 
@@ -169,6 +171,41 @@ TEST_CASE("a directory that holds results is refused unless --overwrite is given
   CHECK(read_text(results + "/gauges.csv") == "precious");
   CHECK(freshet_with({"run", scene, "--out", results, "--overwrite"}).code == 0);
   CHECK(read_text(results + "/notes.txt") == "mine");  // only results are replaced
+}
+
+TEST_CASE("the files of a run with everything switched on are those that are refused, replaced and named by --help") {
+  const test::Scratch scratch;
+  const std::string scene = scene_in(scratch), results = scratch / "results";
+  const auto observed = [](const Parts& parts) {
+    Parts all = parts;
+    all.read = [](const std::string&, const std::vector<std::string>&) { return test::observed_scene(); };
+    return all;
+  };
+  REQUIRE(freshet_with(observed(fake_parts()), {"run", scene, "--out", results}).code == 0);
+  const Parts failing = fake_parts([](auto& m) { m.trouble = {test::Trouble::Kind::fast, 5, 1}; });
+  REQUIRE(freshet_with(observed(failing), {"run", scene, "--out", scratch / "failed"}).code == 4);
+  std::set<std::string> left;
+  for (const auto& folder : {results, scratch / "failed"})
+    for (const auto& entry : fs::directory_iterator(folder)) left.insert(entry.path().filename().string());
+  const auto known = result_files();
+  CHECK(left == std::set<std::string>(known.begin(), known.end()));
+  CHECK(known.size() == left.size());  // each once
+
+  const std::string help = freshet_with({"--help"}).out;
+  for (const auto& name : known) {
+    CAPTURE(name);
+    CHECK_THAT(help, Contains(name));
+    const std::string used = scratch / ("with_" + name);
+    fs::create_directory(used);
+    write_text(used + '/' + name, "precious");
+    const Result refused = freshet_with({"run", scene, "--out", used});
+    CHECK(refused.code == 2);
+    CHECK_THAT(refused.err, Contains("holds results (" + name + ")"));
+  }
+  // A plain run in the place of the other leaves nothing of it.
+  REQUIRE(freshet_with({"run", scene, "--out", results, "--overwrite"}).code == 0);
+  CHECK_FALSE(fs::exists(results + "/profiles.csv"));
+  CHECK_FALSE(fs::exists(results + "/rasters"));
 }
 
 TEST_CASE("mistakes on the command line exit with 2 and a suggestion") {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "src/reference/exact.hpp"
-#include "src/run/compare.hpp"
+#include "src/run/record/norms.hpp"
 #include "tests/support/fake_method.hpp"
 
 using namespace freshet;

@@ -6,9 +6,11 @@
 
 #include "src/errors.hpp"
 #include "src/io/files.hpp"
+#include "src/io/h5part.hpp"
 #include "src/reference/exact.hpp"
 #include "src/run/driver.hpp"
 #include "tests/support/fake_method.hpp"
+#include "tests/support/run_case.hpp"
 #include "tests/support/scratch.hpp"
 
 using namespace freshet;
@@ -40,7 +42,7 @@ TEST_CASE("a run writes its outputs exactly on time") {
   CHECK(fs::exists(scratch / "state.h5"));
   CHECK_FALSE(fs::exists(scratch / "measured.csv"));
 
-  const Summary summary = driver.summary();
+  const test::Results summary = test::results_of(driver, method);
   CHECK(summary.simulated == 1.0);
   CHECK(summary.steps == driver.clock().step);
   CHECK(summary.initial_particles == 400);
@@ -49,7 +51,7 @@ TEST_CASE("a run writes its outputs exactly on time") {
   CHECK(summary.particle_steps_per_s > 0);
   REQUIRE(summary.gauges.size() == 1);
   CHECK(summary.gauges[0].peak >= 1);
-  CHECK_FALSE(summary.compared);
+  CHECK_FALSE(find<ErrorRecorder>(driver.observers()));
 }
 
 TEST_CASE("a scene without an output interval writes its first and last state") {
@@ -76,15 +78,15 @@ TEST_CASE("all errors are taken at the times that the scene names, before and af
     if (interrupted) method.on_step = [&](long step) { stop = step == 30; };
     driver.begin();
     CHECK(driver.run() == !interrupted);
-    return driver.summary();
+    return test::results_of(driver, method);
   };
-  const Summary whole = finish(scratch / "whole", false);
+  const test::Results whole = finish(scratch / "whole", false);
   REQUIRE(whole.errors_at.size() == 3);
   CHECK(whole.errors_at[1].t == 0.6);
   CHECK(whole.errors_at[2].errors.depth_l2_rel == whole.errors.depth_l2_rel);
   CHECK(whole.errors_at[0].errors.depth_l2_rel != whole.errors_at[1].errors.depth_l2_rel);
 
-  const Summary half = finish(scratch / "half", true);
+  const test::Results half = finish(scratch / "half", true);
   REQUIRE(half.errors_at.size() == 1);
   test::FakeMethod method(scene);
   const Checkpoint checkpoint = read_checkpoint(scratch / "half/state.h5");
@@ -93,9 +95,10 @@ TEST_CASE("all errors are taken at the times that the scene names, before and af
   Driver driver(scene, method, {scratch / "half"});
   driver.restore(checkpoint);
   CHECK(driver.run());
-  REQUIRE(driver.summary().errors_at.size() == 3);
+  const auto again = test::results_of(driver, method).errors_at;
+  REQUIRE(again.size() == 3);
   for (std::size_t k = 0; k < 3; ++k)
-    CHECK(driver.summary().errors_at[k].errors.depth_l2_rel == whole.errors_at[k].errors.depth_l2_rel);
+    CHECK(again[k].errors.depth_l2_rel == whole.errors_at[k].errors.depth_l2_rel);
 }
 
 TEST_CASE("depth_l1_rel is the median over the comparison times") {
@@ -113,8 +116,9 @@ TEST_CASE("depth_l1_rel is the median over the comparison times") {
   auto samples = run.at("depth_l1_rel");
   std::sort(samples.begin(), samples.end());
   CHECK(samples[0] < samples[2]);  // three different times
-  CHECK(driver.summary().errors.depth_l1_rel == samples[1]);
-  CHECK(driver.summary().errors.depth_l2_rel > 0);
+  const ErrorNorms errors = test::results_of(driver, method).errors;
+  CHECK(errors.depth_l1_rel == samples[1]);
+  CHECK(errors.depth_l2_rel > 0);
 }
 
 TEST_CASE("a run that diverges leaves its state beside the last good checkpoint") {

@@ -6,7 +6,8 @@
 #include <limits>
 
 #include "src/reference/exact.hpp"
-#include "src/run/events.hpp"
+#include "src/run/observe/events.hpp"
+#include "src/run/record/errors.hpp"
 
 using namespace freshet;
 
@@ -23,7 +24,6 @@ TEST_CASE("regular times begin at 0 and end at the end") {
 
 TEST_CASE("comparison times spread over the window before the end") {
   Compare compare;
-  CHECK(comparison_times(compare, 10).empty());
   compare.exact = stoker(2, 1, 0, 9.81);
   CHECK(comparison_times(compare, 10) == std::vector<double>{10});
   compare.samples = 3;
@@ -33,15 +33,11 @@ TEST_CASE("comparison times spread over the window before the end") {
 }
 
 TEST_CASE("the time left to an event is split into equal steps") {
-  Scene scene;
-  scene.end_time = 1;
-  const double stable = 0.3;
-  Events events(scene);
-  events.outputs.advance();
+  const double stable = 0.3, end = 1;
   Clock clock;
   std::vector<double> steps;
-  while (clock.t < scene.end_time) {
-    const Stride stride = events.shorten(clock, stable);
+  while (clock.t < end) {
+    const Stride stride = stride_towards(end, clock, stable);
     CHECK(stride.dt <= stable);
     steps.push_back(stride.dt);
     clock.t = stride.until;
@@ -53,33 +49,27 @@ TEST_CASE("the time left to an event is split into equal steps") {
 }
 
 TEST_CASE("no step is shorter than half the stable one unless two events are closer") {
-  Scene scene;
-  scene.end_time = 10;
-  scene.output.every = 0.37;
-  Events events(scene);
+  const double end = 10;
+  Timetable events(regular_times(0.37, end));
   Clock clock;
   double shortest = 1e9;
-  while (clock.t < scene.end_time) {
-    if (events.outputs.due(clock.t)) events.outputs.advance();
+  while (clock.t < end) {
+    if (events.due(clock.t)) events.advance();
     const double stable = 0.05 * (1.2 + std::sin(40 * clock.t));
-    const Stride stride = events.shorten(clock, stable);
+    const Stride stride = stride_towards(events.next(), clock, stable);
     // ceil(q) < 2 q for q > 1: a remainder of more than one stable step is never cut below half of it. A
     // remainder of less than one step can only follow a step that was itself the first of equal parts, with a
     // stable step grown since.
-    if (stride.until < events.outputs.next()) CHECK(stride.dt > 0.5 * stable);
+    if (stride.until < events.next()) CHECK(stride.dt > 0.5 * stable);
     shortest = std::min(shortest, stride.dt);
     clock.t = stride.until;
   }
   CHECK(shortest > 0.5 * 0.05 * 0.2);  // half the smallest stable step
-  CHECK(events.outputs.done() + 1 == events.outputs.count());
+  CHECK(events.done() + 1 == events.count());
 }
 
 TEST_CASE("without water any step is stable") {
-  Scene scene;
-  scene.end_time = 3;
-  Events events(scene);
-  events.outputs.advance();
-  const Stride stride = events.shorten({}, std::numeric_limits<double>::infinity());
+  const Stride stride = stride_towards(3, {}, std::numeric_limits<double>::infinity());
   CHECK(stride.dt == 3.0);
   CHECK(stride.until == 3.0);
 }

@@ -1,5 +1,5 @@
 // The measured limits of the machine against what its clock and the width of its registers allow.
-#include "src/run/peaks.hpp"
+#include "src/run/timing/peaks.hpp"
 
 #include <catch2/catch.hpp>
 

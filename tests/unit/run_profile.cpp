@@ -4,8 +4,8 @@
 #include <chrono>
 #include <thread>
 
-#include "src/run/launch_times.hpp"
-#include "src/run/profile.hpp"
+#include "src/run/timing/launch_times.hpp"
+#include "src/run/timing/profile.hpp"
 #include "tests/support/fake_method.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/scratch.hpp"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "src/run/gauge_stats.hpp"
+#include "src/run/record/gauge_stats.hpp"
 
 using namespace freshet;
 

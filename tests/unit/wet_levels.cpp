@@ -1,7 +1,7 @@
 // The highest water on a slope: beds rise from particle to particle, the waterline is that of the water.
 #include <catch2/catch.hpp>
 
-#include "src/run/stations.hpp"
+#include "src/run/record/run_ups.hpp"
 #include "tests/support/scenes.hpp"
 
 using namespace freshet;
@@ -10,9 +10,10 @@ namespace {
 
 constexpr double slope = 0.25, spacing = 0.02, least = 1e-3;  // m, m
 
-WetLevels highest(const Scene& scene, const RunUp& at) {
-  RunUpRecorder recorder({at});
-  recorder.record(*make_method(scene));
+WetLevels highest(Scene scene, const RunUp& at) {
+  scene.run_ups = {at};
+  RunUpRecorder recorder(scene);
+  recorder.begin(*make_method(scene));
   return recorder.highest()[0];
 }
 

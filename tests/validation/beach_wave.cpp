@@ -43,7 +43,7 @@ TEST_CASE("the wave on the beach converges", "[long]") {
   const auto run = [](const char* dx) {
     return test::run_case("beach_wave", {std::string("water.spacing=") + dx, "compare.where=x > 0 && x < 800"});
   };
-  const Summary coarse = run("20"), fine = run("10");
+  const test::Results coarse = run("20"), fine = run("10");
   for (const std::size_t k : {0, 1, 2}) {
     CAPTURE(coarse.errors_at[k].t);
     CHECK(coarse.errors_at[k].errors.depth_l2_rel / fine.errors_at[k].errors.depth_l2_rel >= 1.5);

@@ -12,7 +12,7 @@ using namespace freshet;
 TEST_CASE("a solitary wave wraps around a conical island", "[bp06][long]") {
   if (!test::data_file("nthmp/BP06/briggs_caseA_gauges.csv")) return;
   const Scene scene = test::read_case("bp06");
-  const Summary s = test::run_case("bp06");
+  const test::Results s = test::run_case("bp06");
   // Two sources of the measured run-up disagree (3.2 against 4.16 cm in front): between them, 20 % more on either side, which is
   // the tolerance of the benchmark's own scripts (ptha).
   double highest = 0;

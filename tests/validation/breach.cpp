@@ -8,7 +8,7 @@ using namespace freshet;
 namespace {
 
 void check_breach(const std::vector<std::string>& overrides) {
-  const Summary s = test::run_case("breach", overrides);
+  const test::Results s = test::run_case("breach", overrides);
   const double hydrograph = 100 * (1800 / 2.0 + 7200 + 3600 / 2.0);  // m3: up in 30 min, constant for 2 h, down in 1 h
   CHECK(s.simulated == 21600);
   CHECK(s.mass.inflow - s.mass.outflow == Approx(hydrograph).epsilon(5e-3));

@@ -31,7 +31,7 @@ double largest(const std::vector<double>& rms) { return *std::max_element(rms.be
 double mean(const std::vector<double>& rms) { return std::accumulate(rms.begin(), rms.end(), 0.0) / static_cast<double>(rms.size()); }
 
 // Particles times steps: the work, which does not depend on what else the machine does.
-double work(const Summary& s) { return s.particle_steps_per_s * s.wall; }
+double work(const test::Results& s) { return s.particle_steps_per_s * s.wall; }
 
 test::CaseRun bend(const std::vector<std::string>& overrides) { return test::finish_case("cadam_bend", overrides); }
 

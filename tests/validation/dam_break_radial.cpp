@@ -54,7 +54,7 @@ TEST_CASE("the circular dam break on wet ground is as accurate as the best known
   // 0.015/0.009, 0.016/0.011. The bounds are the prototype's, rounded up by 2 to 6 %.
   constexpr Bound bounds[] = {{10, 0.013, 0.008}, {30, 0.015, 0.010}, {50, 0.0165, 0.012}};
   const test::CaseRun run = test::finish_case("dam_break_radial");
-  const Summary& summary = run.summary;
+  const test::Results& summary = run.summary;
   const Fluid& fluid = run.fluid;
   REQUIRE(summary.errors_at.size() == 3);
   for (std::size_t k = 0; k < 3; ++k) {
@@ -73,7 +73,7 @@ TEST_CASE("the circular dam break on wet ground is as accurate as the best known
 
 TEST_CASE("the circular dam break on dry ground") {
   const test::CaseRun run = test::finish_case("dam_break_radial_dry");
-  const Summary& summary = run.summary;
+  const test::Results& summary = run.summary;
   const Fluid& fluid = run.fluid;
   CHECK(summary.initial_particles == 5024);
   REQUIRE(summary.errors_at.size() == 3);

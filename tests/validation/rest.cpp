@@ -34,7 +34,7 @@ std::vector<double> still_at_four_spacings(const Basin& basin, bool fine_bed = f
   for (double dx = basin.scale; dx > basin.scale / 10; dx /= 2) {
     std::vector<std::string> overrides{"water.spacing=" + std::to_string(dx)};
     if (fine_bed) overrides.push_back("bed.spacing=" + std::to_string(dx / 4));
-    const Summary s = test::run_case(basin.name, overrides);
+    const test::Results s = test::run_case(basin.name, overrides);
     CAPTURE(basin.name, dx, s.steady.thesis_ls, s.errors.depth_l2_rel);
     CHECK(s.steady.max_speed_rel < basin.speed);
     CHECK(s.steady.rate < 1e-4);  // 1/s
@@ -78,7 +78,7 @@ TEST_CASE("the well-balanced bed keeps water over a step at rest to round-off", 
 }
 
 TEST_CASE("water in a paraboloid comes to rest up to its shore") {
-  const Summary s = test::run_case("rest_bowl");
+  const test::Results s = test::run_case("rest_bowl");
   CHECK(s.initial_particles == 448);  // the thesis' number
   CAPTURE(s.steady.max_speed_rel, s.steady.rate, s.steady.thesis_ls, s.errors.depth_l2_rel);
   CHECK(s.steady.end_speed_rel < 0.015);  // printed: < 1.5 % at 1000 s

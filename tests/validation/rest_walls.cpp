@@ -17,7 +17,7 @@ struct Rest {
 TEST_CASE("still water among curved and slanting walls stays still at all times", "[slow]") {
   const Rest rest = GENERATE(Rest{"rest_circle", 0.004}, Rest{"rest_corner_300", 0.008}, Rest{"rest_corner_345", 0.008});
   CAPTURE(rest.name);
-  const Summary s = test::run_case(rest.name);
+  const test::Results s = test::run_case(rest.name);
   CHECK(s.steady.max_speed_rel < rest.bound);
   CHECK(s.mass.relative_error <= 1e-12);  // no particle is made or lost
 }

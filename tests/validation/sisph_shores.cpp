@@ -57,7 +57,7 @@ TEST_CASE("sisph: the error in the bowl falls with the spacing", "[sisph]") {
 
 TEST_CASE("sisph: a landslide's wave on a beach at a celerity Courant number of 5", "[sisph][slow]") {
   const Keys keys{"scene.method=sisph", "water.start=cells", "sisph.theta=0.5", "sisph.courant=5", "output.every=0"};
-  const Summary summary = test::run_case("beach_wave", keys);
+  const test::Results summary = test::run_case("beach_wave", keys);
   REQUIRE(summary.errors_at.size() == 3);
   // The case's bound; measured 0.07, 0.38, 0.13 %.
   for (const auto& [t, errors] : summary.errors_at) {

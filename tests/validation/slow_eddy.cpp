@@ -17,7 +17,7 @@ struct Result {
 Result run(double spacing, std::vector<std::string> keys = {}) {
   keys.push_back("water.spacing=" + std::to_string(spacing));
   keys.push_back("output.every=0");
-  const Summary summary = test::run_case("slow_eddy", keys);
+  const test::Results summary = test::run_case("slow_eddy", keys);
   CHECK(summary.mass.relative_error < 1e-12);
   return {summary.errors.velocity_l2, summary.steps};
 }

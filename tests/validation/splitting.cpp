@@ -7,7 +7,7 @@
 
 #include "src/reference/exact.hpp"
 #include "src/reference/radial.hpp"
-#include "src/run/water_grid.hpp"
+#include "src/run/record/water_grid.hpp"
 #include "tests/support/run_case.hpp"
 
 using namespace freshet;
@@ -56,7 +56,7 @@ double rms(const Series& a, const Series& b) {
   return std::sqrt(sum / static_cast<double>(b.t.size()));
 }
 
-double mean_rmse(const Summary& s) {
+double mean_rmse(const test::Results& s) {
   double sum = 0;
   for (const GaugeResult& g : s.gauges) sum += g.rmse;
   return sum / static_cast<double>(s.gauges.size());

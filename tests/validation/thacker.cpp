@@ -92,7 +92,7 @@ TEST_CASE("reconstruction is what keeps the radial Thacker wave") {
 }
 
 TEST_CASE("pairs in single precision change neither the planar surface's error nor the mass") {
-  const Summary exact = test::run_case("thacker"), mixed = test::run_case("thacker", {"sph.precision=mixed"});
+  const test::Results exact = test::run_case("thacker"), mixed = test::run_case("thacker", {"sph.precision=mixed"});
   // Pair sums differ by 1e-7 of their size; over 560 steps neighbours change, and with them the error by its own small part.
   CHECK(mixed.errors.depth_l2_rel == Approx(exact.errors.depth_l2_rel).epsilon(0.01));
   CHECK(mixed.mass.relative_error <= 1e-14);

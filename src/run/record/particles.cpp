@@ -1,0 +1,34 @@
+#include "src/run/record/particles.hpp"
+
+#include <filesystem>
+
+#include "src/io/build.hpp"
+#include "src/io/files.hpp"
+
+namespace freshet {
+
+ParticleRecorder::ParticleRecorder(const Scene& scene, const std::string& directory)
+    : Observer(regular_times(scene.output.every, scene.end_time)),
+      path_(path_in(directory, "particles.h5part")),
+      scene_text_(scene.text),
+      file_(path_) {}
+
+void ParticleRecorder::begin(const Method&) { file_.create(scene_text_, build::version); }
+
+void ParticleRecorder::append(const Method& method, const Clock& clock) const {
+  file_.append(static_cast<int>(times.done()), clock.t, method.fields());
+}
+
+void ParticleRecorder::take(const Method& method, const Clock& clock) {
+  const Region region("run::output");
+  append(method, clock);
+}
+
+void ParticleRecorder::save(Values&) const { sync_file(path_); }
+
+void ParticleRecorder::restore(const Values&, const Clock&) {
+  if (std::filesystem::exists(path_)) file_.truncate(static_cast<int>(times.done()));
+  else file_.create(scene_text_, build::version);
+}
+
+}  // namespace freshet
