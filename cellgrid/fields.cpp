@@ -46,6 +46,12 @@ const NamedField<T>* find(const std::vector<NamedField<T>>& fields, const std::s
 }
 
 template <class T>
+Field<T> find_or_none(const std::vector<NamedField<T>>& fields, const std::string& name) {
+  const NamedField<T>* known = find(fields, name);
+  return known ? known->data : Field<T>();
+}
+
+template <class T>
 Field<T> find_made(const std::vector<NamedField<T>>& fields, const std::string& name) {
   if (const NamedField<T>* known = find(fields, name)) return known->data;
   throw std::logic_error("no particle field is called '" + name + "'");
@@ -104,7 +110,12 @@ Field<int> FieldSet::integer(const std::string& name, const std::string& unit, C
 Field<double> FieldSet::real(const std::string& name) const { return find_made(reals_, name); }
 Field<int> FieldSet::integer(const std::string& name) const { return find_made(integers_, name); }
 
-bool FieldSet::has(const std::string& name) const { return find(reals_, name) || find(integers_, name); }
+Field<double> FieldSet::real_or_none(const std::string& name) const { return find_or_none(reals_, name); }
+Field<int> FieldSet::integer_or_none(const std::string& name) const { return find_or_none(integers_, name); }
+const NamedField<double>* FieldSet::find_real(const std::string& name) const { return find(reals_, name); }
+const NamedField<int>* FieldSet::find_integer(const std::string& name) const { return find(integers_, name); }
+
+bool FieldSet::has(const std::string& name) const { return find_real(name) || find_integer(name); }
 
 void FieldSet::append_copies(const Input<int>& from, int count) {
   const int first = size_;

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "cellgrid/types.hpp"
+#include "cellgrid/vec.hpp"
 
 namespace freshet {
 
@@ -44,6 +44,21 @@ class FieldSet {
   Field<int> integer(const std::string& name) const;
 
   bool has(const std::string& name) const;
+
+  // The same, or nullptr.
+  const NamedField<double>* find_real(const std::string& name) const;
+  const NamedField<int>* find_integer(const std::string& name) const;
+
+  // The field of that name, or an empty one if nobody made it.
+  Field<double> real_or_none(const std::string& name) const;
+  Field<int> integer_or_none(const std::string& name) const;
+
+  // Both components of a vector; in 1-D there is one.
+  template <int D>
+  VecField<double, D> vector(const char* x, const char* y) const {
+    if constexpr (D == 1) return {real(x)};
+    else return {real(x), real(y)};
+  }
 
   // Every sorted field becomes field[order[i]] for i < size.
   void permute(const Input<int>& order, int size);

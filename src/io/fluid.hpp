@@ -20,8 +20,4 @@ struct Fluid {
 Fluid fluid_on_host(const FieldSet& fields);
 int fluid_count(const FieldSet& fields);
 
-// The named field, or nullptr if the method does not have it.
-const NamedField<double>* find_real(const FieldSet& fields, const std::string& name);
-const NamedField<int>* find_integer(const FieldSet& fields, const std::string& name);
-
 }  // namespace freshet

@@ -69,14 +69,14 @@ void ParticleFile::append(int step, double t, const FieldSet& fields) const {
     group.attribute("TimeValue", t);
     group.write("x", fluid.x);
     group.write("y", fluid.y);
-    if (find_real(fields, "depth")) {
+    if (fields.find_real("depth")) {
       group.write("z", surface(fluid), hdf5::Stored::float32);
       group.write("depth", fluid.depth, hdf5::Stored::float32);
     }
     group.write("v_0", fluid.u, hdf5::Stored::float32);
-    if (find_real(fields, "v")) group.write("v_1", fluid.v, hdf5::Stored::float32);
+    if (fields.find_real("v")) group.write("v_1", fluid.v, hdf5::Stored::float32);
     group.write("id", fluid.id);
-    if (find_real(fields, "p")) write_pressure(group, fields);
+    if (fields.find_real("p")) write_pressure(group, fields);
   }
   file.close();
 }

@@ -49,8 +49,8 @@ std::string when(const Clock& clock) {
 }
 
 Field<double> field_or(const FieldSet& fields, const char* name, const char* fallback) {
-  const auto* field = find_real(fields, name);
-  return field ? field->data : find_real(fields, fallback)->data;
+  const auto* field = fields.find_real(name);
+  return field ? field->data : fields.find_real(fallback)->data;
 }
 
 // Every comparison is false for NaN, so that "not (inside)" also finds values that are not finite.
@@ -58,8 +58,8 @@ int count_bad(const FieldSet& fields, const Allowed& in) {
   const Field<double> x = field_or(fields, "x", "x"), y = field_or(fields, "y", "x");
   const Field<double> u = field_or(fields, "u", "u"), v = field_or(fields, "v", "u");
   const Field<double> depth = field_or(fields, "depth", "x");
-  const double least = find_real(fields, "depth") ? -std::numeric_limits<double>::min() : -infinity;
-  const double limit2 = in.speed * in.speed, second = find_real(fields, "v") ? 1 : 0;
+  const double least = fields.find_real("depth") ? -std::numeric_limits<double>::min() : -infinity;
+  const double limit2 = in.speed * in.speed, second = fields.find_real("v") ? 1 : 0;
   const int n = fields.size();
   int bad = 0;
   Kokkos::parallel_reduce(
@@ -113,11 +113,11 @@ int count_not_finite(const FieldSet& fields) {
 }
 
 // The particles on the host, where something is wrong. A field that the method does not have reads as zero.
-class Particles {
+class HostParticles {
  public:
-  explicit Particles(const FieldSet& fields) : fields_(fields) {
+  explicit HostParticles(const FieldSet& fields) : fields_(fields) {
     for (const auto& field : fields.reals()) host_.push_back(on_host(field.data));
-    if (const auto* id = find_integer(fields, "id")) id_ = on_host(id->data);
+    if (const auto* id = fields.find_integer("id")) id_ = on_host(id->data);
     for (std::size_t f = 0; f < host_.size(); ++f) {
       const std::string& name = fields.reals()[f].name;
       if (name == "x") x_ = host_[f];
@@ -168,7 +168,7 @@ class Particles {
 
 // Of several the particle with the lowest id, whatever the order in memory; "" if nothing is wrong.
 std::string find_bad(const FieldSet& fields, const Allowed& allowed) {
-  const Particles particles(fields);
+  const HostParticles particles(fields);
   int first = -1;
   std::string found;
   for (int i = 0; i < fields.size(); ++i) {

@@ -8,20 +8,19 @@ namespace freshet {
 namespace {
 
 Input<double> field_or(const FieldSet& fields, const char* name, const char* fallback) {
-  const auto* field = find_real(fields, name);
-  return field ? field->data : find_real(fields, fallback)->data;
+  const auto* field = fields.find_real(name);
+  return field ? field->data : fields.find_real(fallback)->data;
 }
 
 // Boundary particles move as they are told.
 Input<int> kinds(const FieldSet& fields) {
-  const auto* kind = find_integer(fields, "kind");
-  return kind ? kind->data : Field<int>();
+  return fields.integer_or_none("kind");
 }
 
 double largest_speed(const FieldSet& fields) {
   const Input<double> u = field_or(fields, "u", "u"), v = field_or(fields, "v", "u");
   const Input<int> kind = kinds(fields);
-  const double second = find_real(fields, "v") ? 1 : 0;
+  const double second = fields.find_real("v") ? 1 : 0;
   const bool open = kind.extent(0) > 0;
   double most = 0;
   Kokkos::parallel_reduce(
