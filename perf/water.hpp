@@ -131,7 +131,7 @@ class Water {
   void add_bed() {
     const double size = side_ * dx, wave = 20 * dx;
     const auto level = [=](double x, double y) { return 0.05 * wave * std::sin(x / wave) * std::cos(y / wave); };
-    bed_ = swe::Bed<D>{BedSpline<D>(level, {{0, 0}, {size, size}, dx, 0}), true, fields_.real("bed", "m", Carry::no)};
+    bed_ = swe::BedTerm<D>{BedSpline<D>(level, {{0, 0}, {size, size}, dx, 0}), true, fields_.real("bed", "m", Carry::no)};
   }
   void add_matrix() {
     const auto p = bind();
@@ -224,7 +224,7 @@ class Water {
   NeighbourList neighbours_;
   Field<double> settled_rho_, settled_h_, drag_, coefficient_, vector_x_, vector_y_;
   Pairs pairs_;
-  std::optional<swe::Bed<D>> bed_;
+  std::optional<swe::BedTerm<D>> bed_;
   std::optional<swe::Friction> friction_;
   std::optional<Walls<D>> walls_;
   double stirred_ = 1;

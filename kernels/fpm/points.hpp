@@ -40,9 +40,9 @@ struct PointReport {
 
 // Fields of the set: x, y [m], id, dx [m] where the spacing varies, and those made here: kind (PointKind), side (of the tank,
 // -1 in the fluid), surface (0, 1), open_x, open_y (Cloud::open).
-class Points {
+class PointKeeper {
  public:
-  Points(const PointRule& rule, const Tank& tank, const Period& period, PointFields carried);
+  PointKeeper(const PointRule& rule, const Tank& tank, const Period& period, PointFields carried);
 
   static void make_fields(FieldSet& points);
 

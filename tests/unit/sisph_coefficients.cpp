@@ -24,7 +24,7 @@ struct Basin {
   AnyKernel<2> kernel;
   sisph::Geometry<2> g;
   sisph::ClosureReport closure;
-  sisph::Water<2> water;
+  sisph::Layer<2> water;
   VecField<double, 2> before;
 
   explicit Basin(const Setting& setting) : kernel(make_kernel<2>(setting.kernel, smoothing, false)) {

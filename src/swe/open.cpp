@@ -1,4 +1,4 @@
-// From a scene's open boundaries and walls to the solver's: pieces, what they impose, and how walls go on beside the buffers.
+// From a scene's open boundaries and walls to the method's: pieces, what they impose, and how walls go on beside the buffers.
 #include <algorithm>
 #include <cmath>
 
@@ -116,7 +116,7 @@ WallKind wall_kind(Walling wanted, bool exact_images) {
 }  // namespace
 
 template <int D>
-void Solver<D>::build_boundaries() {
+void ExplicitSph<D>::build_boundaries() {
   const std::vector<Piece> all = pieces_of(scene_);
   auto piece = all.begin();
   int owner = 1;
@@ -131,7 +131,7 @@ void Solver<D>::build_boundaries() {
 }
 
 template <int D>
-void Solver<D>::build_walls() {
+void ExplicitSph<D>::build_walls() {
   if (scene_.walls.empty()) return;
   const std::vector<Piece> pieces = pieces_of(scene_);
   double spacing = scene_.water.spacing;  // of the coarsest buffer
@@ -150,16 +150,16 @@ void Solver<D>::build_walls() {
 
 // The buffers at the start, from the water as it was placed.
 template <int D>
-void Solver<D>::fill_boundaries() {
+void ExplicitSph<D>::fill_boundaries() {
   if (boundaries_.empty()) return;
   order_.sort(particles_);
   order_.measure_reach(particles_, particles_.real("h"), support_);
   const Particles<D> p = bind();
   launch("swe::invert_h", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) { p.inv_h(i) = 1.0 / p.h(i); });
-  for (auto& boundary : boundaries_) boundary.fill(order_.rows(), particles_, [this] { return bind(); }, bed(), next_id_);
+  for (auto& boundary : boundaries_) boundary.fill(order_.rows(), particles_, [this] { return bind(); }, bed_term(), next_id_);
 }
 
-template class Solver<1>;
-template class Solver<2>;
+template class ExplicitSph<1>;
+template class ExplicitSph<2>;
 
 }  // namespace freshet::swe
