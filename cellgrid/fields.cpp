@@ -46,12 +46,6 @@ const NamedField<T>* find(const std::vector<NamedField<T>>& fields, const std::s
 }
 
 template <class T>
-Field<T> find_or_none(const std::vector<NamedField<T>>& fields, const std::string& name) {
-  const NamedField<T>* known = find(fields, name);
-  return known ? known->data : Field<T>();
-}
-
-template <class T>
 Field<T> find_made(const std::vector<NamedField<T>>& fields, const std::string& name) {
   if (const NamedField<T>* known = find(fields, name)) return known->data;
   throw std::logic_error("no particle field is called '" + name + "'");
@@ -110,8 +104,10 @@ Field<int> FieldSet::integer(const std::string& name, const std::string& unit, C
 Field<double> FieldSet::real(const std::string& name) const { return find_made(reals_, name); }
 Field<int> FieldSet::integer(const std::string& name) const { return find_made(integers_, name); }
 
-Field<double> FieldSet::real_or_none(const std::string& name) const { return find_or_none(reals_, name); }
-Field<int> FieldSet::integer_or_none(const std::string& name) const { return find_or_none(integers_, name); }
+Field<int> FieldSet::integer_or_none(const std::string& name) const {
+  const NamedField<int>* known = find_integer(name);
+  return known ? known->data : Field<int>();
+}
 const NamedField<double>* FieldSet::find_real(const std::string& name) const { return find(reals_, name); }
 const NamedField<int>* FieldSet::find_integer(const std::string& name) const { return find(integers_, name); }
 

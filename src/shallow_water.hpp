@@ -1,5 +1,5 @@
-// What methods for shallow water have in common: sorted particles with the fields of SortedWater over a bed, and what is looked up
-// among them at fixed places.
+// What methods for shallow water have in common: sorted particles with the fields of SortedWater over a bed, and
+// what is looked up among them at fixed places.
 #pragma once
 #include <optional>
 
@@ -47,7 +47,7 @@ class ShallowWater : public Method {
 
  protected:
   ShallowWater(const Scene& scene, const AnyKernel<D>& kernel)
-      : scene_(scene), kernel_(kernel), support_(std::visit([](const auto& k) { return k.support; }, kernel_)),
+      : scene_(scene), kernel_(kernel), support_(std::visit([](const auto& k) { return k.support; }, kernel)),
         order_(D, scene.water.spacing, sorted_box(scene)) {}
 
   const BedSpline<D>* bed() const { return bed_ ? &*bed_ : nullptr; }
@@ -55,7 +55,10 @@ class ShallowWater : public Method {
   NearestTable roughness(double factor) const {
     if (!scene_.manning || !scene_.manning->map) return {};
     const Manning& manning = *scene_.manning;
-    const auto squared = [&](double x, double y) { const double n = manning.map(x, y); return factor * n * n; };
+    const auto squared = [&](double x, double y) {
+      const double n = manning.map(x, y);
+      return factor * n * n;
+    };
     return NearestTable(squared, {scene_.domain.low, scene_.domain.high, manning.node, manning.step});
   }
 

@@ -69,13 +69,6 @@ struct Choice {
 PointKeeper::PointKeeper(const PointRule& rule, const Tank& tank, const Period& period, PointFields carried)
     : rule_(rule), tank_(tank), period_(period), carried_(std::move(carried)), voronoi_(rule.voronoi) {}
 
-void PointKeeper::make_fields(FieldSet& points) {
-  points.integer("kind", "1", Carry::state);
-  points.integer("side", "1", Carry::state);
-  points.integer("surface", "1", Carry::state);
-  for (const char* name : {"open_x", "open_y"}) points.real(name, "1", Carry::state);
-}
-
 Cloud PointKeeper::cloud(const FieldSet& points, const RowOrder& order) const {
   return {{order.rows(), {points.real("x"), points.real("y")}, period_}, points.integer("id"), points.integer("kind"), tank_.view(), rule_.spacing,
           points.has("dx") ? points.real("dx") : Field<double>(), {points.real("open_x"), points.real("open_y")}};

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cellgrid/launch.hpp"
+#include "cellgrid/on_device.hpp"
 #include "kernels/ids.hpp"
 #include "kernels/swe/open_exterior.hpp"
 
@@ -45,14 +46,13 @@ OpenBuffer<D>::OpenBuffer(const OpenLine<D>& line, const OpenBufferOptions& opti
     total_ = before_ + count_ + wedge_rows(line.spread_b, buffer_, width_);
   }
   const auto size = static_cast<size_t>(total_);
-  extent_ = Kokkos::View<RowPart*, Memory>("open.extents", size);
   farthest_ = Field<double>("open.farthest", size);
   nearest_ = Field<double>("open.nearest", size);
   room_ = Field<int>("open.room", size + 1);
   inner_room_ = Field<int>("open.inner_room", size);
-  auto host = Kokkos::create_mirror_view(extent_);
-  for (int r = 0; r < total_; ++r) host(r) = extent(r);
-  Kokkos::deep_copy(extent_, host);
+  std::vector<RowPart> parts;
+  for (int r = 0; r < total_; ++r) parts.push_back(extent(r));
+  extent_ = on_device("open.extents", parts);
 }
 
 // Where the sides of the buffer cross a row, on the lattice of the boundary particles: those on the side itself belong to the

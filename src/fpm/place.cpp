@@ -137,8 +137,7 @@ void FinitePointset::place() {
   for (const char* name : {"v", "v_old"}) fill(name, [](const StartPoint& s) { return s.velocity[1]; });
   assign(points_.real("h"), scene_.fpm->support * scene_.water.spacing);
   if (grading_) grading_->size(points_);
-  const Field<int> id = points_.integer("id");
-  launch("fpm::number", Range(0, points_.size()), KOKKOS_LAMBDA(int i) { id(i) = i; });
+  upload(points_.integer("id"), start.size(), [](std::size_t i) { return static_cast<int>(i); });
   next_id_ = points_.size();
   seat_on_walls();
 }

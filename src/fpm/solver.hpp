@@ -37,6 +37,7 @@ class FinitePointset : public Method {
   const PointCount& counts() const { return counts_; }  // since t = 0
 
  private:
+  Flow declare(const FieldList& fields) const;
   void make_fields();
   Flow bind() const;
   void manage_points();

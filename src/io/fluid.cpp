@@ -1,7 +1,6 @@
 #include "src/io/fluid.hpp"
 
 namespace freshet {
-namespace {
 
 std::vector<int> fluid_indices(const FieldSet& fields) {
   std::vector<int> indices;
@@ -15,17 +14,6 @@ std::vector<int> fluid_indices(const FieldSet& fields) {
   }
   return indices;
 }
-
-template <class T>
-std::vector<T> gather(const NamedField<T>* field, const std::vector<int>& indices) {
-  std::vector<T> values(indices.size(), T(0));
-  if (!field) return values;
-  const auto data = on_host(field->data);
-  for (std::size_t k = 0; k < indices.size(); ++k) values[k] = data(indices[k]);
-  return values;
-}
-
-}  // namespace
 
 Fluid fluid_on_host(const FieldSet& fields) {
   const auto indices = fluid_indices(fields);

@@ -17,6 +17,17 @@ struct Fluid {
   std::size_t size() const { return x.size(); }
 };
 
+// Places of the fluid particles in the fields, and what a field holds there; zeros if nobody made it.
+std::vector<int> fluid_indices(const FieldSet& fields);
+template <class T>
+std::vector<T> gather(const NamedField<T>* field, const std::vector<int>& indices) {
+  std::vector<T> values(indices.size(), T(0));
+  if (!field) return values;
+  const auto data = on_host(field->data);
+  for (std::size_t k = 0; k < indices.size(); ++k) values[k] = data(indices[k]);
+  return values;
+}
+
 Fluid fluid_on_host(const FieldSet& fields);
 int fluid_count(const FieldSet& fields);
 

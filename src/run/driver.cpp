@@ -52,7 +52,8 @@ Driver::Driver(const Scene& scene, Method& method, RunOptions options)
       profiles_(scene, inside(options_.directory, "profiles.csv")),
       steady_(scene),
       rasters_(scene, options_.directory),
-      particles_(inside(options_.directory, "particles.h5part")),
+      particles_(inside(options_.directory, "particles.h5part"), scene.output.fields,
+                 scene.fpm ? scene.water.spacing : 0),
       progress_(options_.progress, options_.terminal, 0, scene.end_time) {}
 
 Driver::~Driver() = default;
@@ -62,7 +63,7 @@ void Driver::begin() {
   initial_mechanics_ = method_.mechanics();
   energy_watch_.start(initial_mechanics_);
   monitor_.start(method_.totals().mass);
-  particles_.create(scene_.text, build::version);
+  particles_.create(scene_.text, build::version, method_.fields());
   gauges_.begin(method_);
   run_ups_.record(method_);
   steady_.begin(method_);
@@ -235,7 +236,7 @@ void Driver::restore(const Checkpoint& checkpoint) {
   if (std::filesystem::exists(inside(options_.directory, "particles.h5part"))) {
     particles_.truncate(static_cast<int>(events_.outputs.done()));
   } else {
-    particles_.create(scene_.text, build::version);
+    particles_.create(scene_.text, build::version, method_.fields());
   }
   progress_ = Progress(options_.progress, options_.terminal, clock_.t, scene_.end_time);
 }

@@ -32,12 +32,6 @@ std::vector<double> copied(const Field<double>& field) {
   return {host.data(), host.data() + host.extent(0)};
 }
 
-void fill(const Field<double>& field, const std::vector<double>& values) {
-  const auto host = Kokkos::create_mirror_view(field);
-  for (std::size_t k = 0; k < values.size(); ++k) host(k) = values[k];
-  assign(field, host);
-}
-
 std::vector<std::pair<std::string, Field<double>>> named(const Maxima& maxima) {
   return {{"max_depth", maxima.depth},
           {"max_speed", maxima.speed},
@@ -149,7 +143,7 @@ void RasterRecorder::restore(const Values& values) {
   if (!maxima_) return;
   front_ = values.at("raster_front");
   front_times_.skip_to(static_cast<std::size_t>(values.at("raster_front_times").at(0)));
-  for (const auto& [name, field] : named(*maxima_)) fill(field, values.at("raster_" + name));
+  for (const auto& [name, field] : named(*maxima_)) upload(field, values.at("raster_" + name));
 }
 
 }  // namespace freshet

@@ -38,7 +38,8 @@ CellGrid square_grid(const Domain& domain, double cell) {
 }
 
 CoverFields cover_cells(const CellGrid& grid, const Method& method) {
-  return method.dimension() == 1 ? cover_cells(grid, water_of<1>(method)) : cover_cells(grid, water_of<2>(method));
+  if (method.dimension() == 1) return cover_cells(grid, water_of<1>(method));
+  return cover_cells(grid, water_of<2>(method));
 }
 
 Front track_maxima(const CellGrid& grid, const Method& method, double t, const Maxima& maxima) {

@@ -28,7 +28,8 @@ template <int D>
 EulerianSph<D>::EulerianSph(const Scene& scene)
     : Base(scene), geometry_(Base::measure()),
       closure_(scene.sisph.closure ? close_areas(geometry_) : ClosureReport{}),
-      surface_(geometry_, order_.rows(), surface_options(scene), pair_source()), active_(geometry_), rim_(geometry_) {
+      surface_(geometry_, order_.rows(), surface_options(scene), pair_source()), active_(geometry_),
+      rim_(geometry_) {
   closure_.lambda = {};
   build_momentum();
   build_friction();
@@ -39,7 +40,8 @@ EulerianSph<D>::EulerianSph(const Scene& scene)
 template <int D>
 std::optional<PairSource<D>> EulerianSph<D>::pair_source() const {
   if (scene_.sisph.coefficients != Sisph::Coefficients::recomputed) return {};
-  return PairSource<D>{kernel_, on_host(Kokkos::subview(particles_.real("h"), std::make_pair(0, 1)))(0), closure_.lambda};
+  const auto first = on_host(Kokkos::subview(particles_.real("h"), std::make_pair(0, 1)));
+  return PairSource<D>{kernel_, first(0), closure_.lambda};
 }
 
 template <int D>
@@ -53,7 +55,8 @@ void EulerianSph<D>::build_momentum() {
   conservative_ = sisph.momentum == Momentum::conservative;
   const bool by_fluxes = conservative_ || sisph.momentum == Momentum::mass_flux ||
                          (sisph.momentum == Momentum::automatic && active_.drying());
-  if ((conservative_ || !by_fluxes) && active_.drying())  // antisymmetric pressure on a film's mass knows no bound
+  // Antisymmetric pressure on a film's mass knows no bound.
+  if ((conservative_ || !by_fluxes) && active_.drying())
     throw SceneError("sisph.momentum = \"" + name_in(momentum_names(), sisph.momentum) + "\" needs water everywhere, and " +
                      std::to_string(active_.dry()) + " particles are dry\n  help: use \"mass-flux\"");
   if (by_fluxes) {
@@ -238,7 +241,8 @@ void EulerianSph<D>::accept(double dt, bool closed) {
   passed_.outflow += rim.out;
   const Layer<D> now = water();
   const VecField<double, D> v = now.v, end = end_;
-  const Field<double> depth = now.depth, found = surface_.depth(), mass = particles_.real("mass"), omega = geometry_.omega;
+  const Field<double> depth = now.depth, found = surface_.depth(), omega = geometry_.omega;
+  const Field<double> mass = particles_.real("mass");
   const double dust = rounding * celerity_ * celerity_ / scene_.gravity;
   launch("sisph::accept", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) {
         const bool wet = found(i) > dust;
@@ -251,7 +255,7 @@ void EulerianSph<D>::accept(double dt, bool closed) {
 template <int D>
 double EulerianSph<D>::stable_dt() const {
   constexpr double mass_flux_limit = 0.7;  // |v| dt / dx
-  const double limit = scene_.sisph.advection > 0 ? scene_.sisph.advection : fluxes_ ? mass_flux_limit : 1e300;
+  const double wanted = scene_.sisph.advection, limit = wanted > 0 ? wanted : fluxes_ ? mass_flux_limit : 1e300;
   return std::min(Base::longest_step(), limit * scene_.water.spacing / std::max(speed_, 1e-300));
 }
 

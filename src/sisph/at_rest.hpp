@@ -33,8 +33,9 @@ class EulerianSph : public SemiImplicitSph<D> {
 
  private:
   using Base = SemiImplicitSph<D>;
-  using Base::scene_, Base::kernel_, Base::support_, Base::particles_, Base::order_, Base::report_, Base::held_,
-      Base::level_of_bed_, Base::g_n2_, Base::drag_, Base::passed_, Base::speed_, Base::celerity_, Base::water;
+  using Base::scene_, Base::kernel_, Base::support_, Base::particles_, Base::order_, Base::report_;
+  using Base::held_, Base::level_of_bed_, Base::g_n2_, Base::drag_, Base::passed_, Base::speed_, Base::celerity_;
+  using Base::water;
 
   std::optional<PairSource<D>> pair_source() const;
   void build_momentum();

@@ -4,21 +4,17 @@
 namespace freshet::sisph {
 
 template <int D>
-void SemiImplicitSph<D>::make_fields() {
-  FieldSet& f = particles_;
-  for (const char* name : {"x", "y"})
-    if (D == 2 || name == std::string("x")) f.real(name, "m", Carry::state);
-  for (const char* name : {"u", "v"})
-    if (D == 2 || name == std::string("u")) f.real(name, "m/s", Carry::state);
-  f.real("depth", "m", Carry::state);
-  f.real("h", "m", Carry::state);
-  f.real("mass", D == 1 ? "m2" : "m3", Carry::state);
-  if (bed_) f.real("bed", "m", Carry::state);
-  if (scene_.sisph.paths == Sisph::Paths::rk3)
-    for (const char* name : {"u_before", "v_before"})
-      if (D == 2 || name == std::string("u_before")) f.real(name, "m/s", Carry::state);
-  f.integer("id", "1", Carry::state);
-  f.integer("kind", "1", Carry::state);
+WaterFields<D> SemiImplicitSph<D>::declare(const FieldList& fields) const {
+  WaterFields<D> f;
+  f.declare(fields);
+  if (bed_) f.declare_bed(fields);
+  if (scene_.sisph.paths == Sisph::Paths::rk3) f.declare_before(fields);
+  return f;
+}
+
+template <int D>
+WaterFields<D> SemiImplicitSph<D>::bind() const {
+  return declare(FieldList::binding(particles_));
 }
 
 template <int D>
@@ -31,16 +27,13 @@ std::vector<Point> SemiImplicitSph<D>::places() const {
 
 template <int D>
 Layer<D> SemiImplicitSph<D>::water() const {
-  const FieldSet& f = particles_;
-  return {f.real("depth"), level_of_bed_, f.vector<D>("u", "v")};
+  const WaterFields<D> f = bind();
+  return {f.depth, level_of_bed_, f.v};
 }
 
 template <int D>
 Swarm<D> LagrangianSph<D>::swarm() const {
-  const FieldSet& f = particles_;
-  return {order_.rows(), f.vector<D>("x", "y"), f.vector<D>("u", "v"),
-          f.has("u_before") ? f.vector<D>("u_before", "v_before") : VecField<double, D>{}, f.real("depth"), f.real("mass"),
-          f.real_or_none("bed"), f.real("h"), f.integer("id"), f.integer("kind"), drag_};
+  return {Base::bind(), order_.rows(), drag_};
 }
 
 template class SemiImplicitSph<1>;

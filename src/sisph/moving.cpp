@@ -27,9 +27,10 @@ LagrangianSph<D>::LagrangianSph(const Scene& scene)
   Base::measure();  // the masses; the geometry at rest is of no more use
   require_water();
   const Swarm<D> now = swarm();
+  const Vec<double, D> low = to_vec<D>(scene_.domain.low), high = to_vec<D>(scene_.domain.high);
   if (held_ > 0)
-    moving_.set_followers(Followers<D>(particles_.size(), {order_.rows(), now.x, now.id, now.kind, to_vec<D>(scene_.domain.low),
-                                                           to_vec<D>(scene_.domain.high), scene_.water.spacing}));
+    moving_.set_followers(Followers<D>(particles_.size(), {order_.rows(), now.x, now.id, now.kind, low, high,
+                                                           scene_.water.spacing}));
   lay_friction();
   moving_.measure_jump(swarm());
   Base::measure_speeds();
@@ -132,7 +133,8 @@ void LagrangianSph<D>::shorten(double t, double dt, const MovingReport& r) {
   allowed_ = 0.5 * dt;
   ++shortened_;
   if (allowed_ >= least * Base::longest_step()) return;
-  const std::string last = " of steps shortened to " + text(dt) + " s (" + text(Base::longest_step()) + " s were asked for) ";
+  const std::string last =
+      " of steps shortened to " + text(dt) + " s (" + text(Base::longest_step()) + " s were asked for) ";
   const std::string when = "at t = " + text(t) + " s ";
   if (!r.solved)
     throw Diverged("the free surface did not settle: " + when + "the linear system" + last + "was left with " + text(r.residual) +
@@ -157,7 +159,8 @@ void LagrangianSph<D>::settle_order() {
 // Velocity differences may move neighbours by sisph.jump of a spacing: more opens gaps.
 template <int D>
 double LagrangianSph<D>::stable_dt() const {
-  return std::min({Base::longest_step(), allowed_, scene_.sisph.jump * scene_.water.spacing / std::max(moving_.jump(), 1e-300)});
+  const double most = scene_.sisph.jump * scene_.water.spacing;  // m
+  return std::min({Base::longest_step(), allowed_, most / std::max(moving_.jump(), 1e-300)});
 }
 
 template class LagrangianSph<1>;

@@ -1,5 +1,5 @@
-// Formulation L of semi-implicit SPH: particles that move with the water (kernels/sisph/moving.hpp). A step is taken in as many parts as
-// it takes for each to hold: what does not settle, or moves neighbours much further than it should, is tried again with half the step.
+// Formulation L of semi-implicit SPH: particles that move with the water (kernels/sisph/moving.hpp). A step is
+// taken in as many parts as it takes for each to hold.
 #pragma once
 #include "kernels/sisph/moving.hpp"
 #include "src/sisph/solver.hpp"
@@ -23,8 +23,8 @@ class LagrangianSph : public SemiImplicitSph<D> {
 
  private:
   using Base = SemiImplicitSph<D>;
-  using Base::scene_, Base::kernel_, Base::support_, Base::particles_, Base::order_, Base::bed_, Base::report_, Base::held_,
-      Base::g_n2_, Base::drag_, Base::celerity_;
+  using Base::scene_, Base::kernel_, Base::support_, Base::particles_, Base::order_, Base::bed_, Base::report_;
+  using Base::held_, Base::g_n2_, Base::drag_, Base::celerity_;
 
   MovingOptions options() const;
   void require_water() const;

@@ -1,4 +1,4 @@
-// From a scene to the state at t = 0: the particles of the water and of the rim around the domain, their places and masses.
+// From a scene to the state at t = 0: the particles of the water and of the rim around the domain.
 #include <algorithm>
 #include <cmath>
 
@@ -19,18 +19,6 @@ void require_known(const Scene& scene) {
   require(!scene.split && !scene.merge, "splitting and merging ([split], [merge])");
   require(scene.water.start == freshet::Water::Start::cells, "any water.start but \"cells\"", "set water.start = \"cells\", or ");
   require_on_sides(scene);
-}
-
-void require_finite(double depth, const Point& x) {
-  if (!std::isfinite(depth))
-    throw SceneError("water: the depth at (" + std::to_string(x[0]) + ", " + std::to_string(x[1]) +
-                     ") m is not a finite number; check the expressions of [water] and [bed] there");
-}
-
-// Width of the cells along a side, as place() has it.
-double cell_width(const Scene& scene, int axis) {
-  const double length = scene.domain.high[axis] - scene.domain.low[axis];
-  return length / std::max(1.0, std::round(length / scene.water.spacing));
 }
 
 double cell_area(const Scene& scene) { return cell_width(scene, 0) * (scene.domain.dimension == 2 ? cell_width(scene, 1) : 1.0); }
@@ -61,20 +49,22 @@ struct StartCell {
   bool held;
 };
 
-void fill_fields(FieldSet& fields, const std::vector<StartCell>& start) {
+template <int D>
+void fill_fields(const WaterFields<D>& f, const std::vector<StartCell>& start) {
   const auto fill = [&](const auto& field, const auto& value) {
     upload(field, start.size(), [&](std::size_t i) { return value(start[i]); });
   };
-  const bool plane = fields.has("y");
-  fill(fields.real("x"), [](const StartCell& s) { return s.placed.x[0]; });
-  if (plane) fill(fields.real("y"), [](const StartCell& s) { return s.placed.x[1]; });
-  fill(fields.real("u"), [](const StartCell& s) { return s.depth > 0 ? s.placed.velocity[0] : 0.0; });
-  if (plane) fill(fields.real("v"), [](const StartCell& s) { return s.depth > 0 ? s.placed.velocity[1] : 0.0; });
-  fill(fields.real("depth"), [](const StartCell& s) { return s.depth; });
-  fill(fields.real("h"), [](const StartCell& s) { return s.placed.h0; });
-  if (fields.has("bed")) fill(fields.real("bed"), [](const StartCell& s) { return s.bed; });
-  fill(fields.integer("kind"), [](const StartCell& s) { return s.held ? 1 : 0; });
-  upload(fields.integer("id"), start.size(), [](std::size_t i) { return static_cast<int>(i); });
+  fill(f.x.x, [](const StartCell& s) { return s.placed.x[0]; });
+  fill(f.v.x, [](const StartCell& s) { return s.depth > 0 ? s.placed.velocity[0] : 0.0; });
+  if constexpr (D == 2) {
+    fill(f.x.y, [](const StartCell& s) { return s.placed.x[1]; });
+    fill(f.v.y, [](const StartCell& s) { return s.depth > 0 ? s.placed.velocity[1] : 0.0; });
+  }
+  fill(f.depth, [](const StartCell& s) { return s.depth; });
+  fill(f.h, [](const StartCell& s) { return s.placed.h0; });
+  if (f.bed.extent(0) > 0) fill(f.bed, [](const StartCell& s) { return s.bed; });
+  fill(f.kind, [](const StartCell& s) { return s.held ? 1 : 0; });
+  upload(f.id, start.size(), [](std::size_t i) { return static_cast<int>(i); });
 }
 
 }  // namespace
@@ -120,26 +110,26 @@ void SemiImplicitSph<D>::place_particles() {
   const double least = std::max(scene_.water.wet_above, rounding * deepest);
   for (StartCell& s : start) s.depth = s.depth > least ? s.depth : 0.0;
   particles_ = FieldSet(static_cast<int>(start.size()));
-  make_fields();
-  fill_fields(particles_, start);
+  fill_fields(declare(FieldList::making(particles_)), start);
 }
 
 template <int D>
 Geometry<D> SemiImplicitSph<D>::measure() {
   order_.sort(particles_);
-  const Field<double> h = particles_.real("h");
-  order_.measure_reach(particles_, h, support_);
+  order_.measure_reach(particles_, bind().h, support_);
   const int n = particles_.size();
   const bool linear = scene_.sisph.correction == Sisph::Correction::krongauz_belytschko;
-  const FieldSet& f = particles_;
-  const Geometry<D> geometry = measure_geometry<D>(n, kernel_, {order_.rows(), f.vector<D>("x", "y"), h, f.integer("kind"),
-                                                                scene_.water.spacing, cell_, mirror_walls(), linear});
+  const WaterFields<D> sorted = bind();
+  const GeometryRequest<D> request{order_.rows(), sorted.x, sorted.h, sorted.kind, scene_.water.spacing,
+                                   cell_, mirror_walls(), linear};
+  const Geometry<D> geometry = measure_geometry<D>(n, kernel_, request);
   if (geometry.images.count > 0) {  // room for their vectors
     particles_.resize(geometry.images.slots() + lanes);
     particles_.resize(n);
   }
-  level_of_bed_ = bed_ ? particles_.real("bed") : Field<double>("sisph.flat_bed", static_cast<std::size_t>(n) + lanes);
-  const Field<double> mass = particles_.real("mass"), depth = particles_.real("depth"), omega = geometry.omega;
+  const WaterFields<D> f = bind();
+  level_of_bed_ = bed_ ? f.bed : Field<double>("sisph.flat_bed", static_cast<std::size_t>(n) + lanes);
+  const Field<double> mass = f.mass, depth = f.depth, omega = geometry.omega;
   launch("sisph::fill", Range(0, n), KOKKOS_LAMBDA(int i) { mass(i) = omega(i) * depth(i); });
   return geometry;
 }

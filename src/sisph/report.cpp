@@ -62,7 +62,8 @@ std::vector<std::string> EulerianSph<D>::features() const {
     names.push_back("pair areas closed in " + std::to_string(closure_.iterations) + " iterations, largest change " +
                     std::to_string(closure_.change));
   if (closure_.negative > 0) names.push_back(std::to_string(closure_.negative) + " pair areas below zero");
-  if (viscosity_) sides.push_back(scene_.sisph.slip ? "viscosity, implicit" : "viscosity, implicit; walls hold the water");
+  const char* held = scene_.sisph.slip ? "" : "; walls hold the water";
+  if (viscosity_) sides.push_back(std::string("viscosity, implicit") + held);
   const std::size_t lines = scene_.boundaries.size();
   if (open_) sides.push_back(std::to_string(lines) + " open " + (lines == 1 ? "boundary" : "boundaries"));
   if (held_ > (open_ ? open_->size() : 0)) sides.push_back("sides held at their state at t = 0");
@@ -73,7 +74,8 @@ template <int D>
 std::vector<std::string> LagrangianSph<D>::features() const {
   std::vector<std::string> sides;
   if (held_ > 0) sides.push_back("sides that go with the water beside them");
-  return Base::features_with({"particles that move with the water, paths by " + name_in(path_names(), scene_.sisph.paths)}, sides);
+  const std::string path = name_in(path_names(), scene_.sisph.paths);
+  return Base::features_with({"particles that move with the water, paths by " + path}, sides);
 }
 
 // What had to be done beyond the recipe.

@@ -1,9 +1,10 @@
-// Semi-implicit SPH for the shallow water equations (Bankole 2016, ch. 5-7, corrected): gravity waves are implicit, so the celerity does
-// not bound the step. What its two formulations share: where particles start, walls, the state of the water and what is told of it.
-// Formulation E, particles at rest: at_rest.hpp; L, particles that move with the water: moving.hpp.
+// Semi-implicit SPH for the shallow water equations (Bankole 2016, ch. 5-7, corrected): gravity waves are implicit,
+// so the celerity does not bound the step. What its two formulations share: where particles start, walls, the state
+// of the water and what is told of it. E, particles at rest: at_rest.hpp; L, those that move with it: moving.hpp.
 #pragma once
 #include "cellgrid/sums.hpp"
 #include "kernels/sisph/friction.hpp"
+#include "kernels/sisph/particles.hpp"
 #include "src/shallow_water.hpp"
 
 namespace freshet::sisph {
@@ -23,6 +24,7 @@ class SemiImplicitSph : public ShallowWater<D> {
 
   explicit SemiImplicitSph(const Scene& scene);
   MirrorWalls<D> mirror_walls() const;
+  WaterFields<D> bind() const;
   Layer<D> water() const;
   std::vector<Point> places() const;  // m, of the particles
   double longest_step() const;        // s, as far as the waves and the user go
@@ -42,8 +44,8 @@ class SemiImplicitSph : public ShallowWater<D> {
   double speed_ = 0, celerity_ = 0;  // m/s, largest
 
  private:
+  WaterFields<D> declare(const FieldList& fields) const;
   void place_particles();
-  void make_fields();
 };
 
 }  // namespace freshet::sisph

@@ -1,4 +1,4 @@
-// From a scene's open boundaries and walls to the method's: pieces, what they impose, and how walls go on beside the buffers.
+// From a scene's open boundaries and walls to the method's: pieces, what they impose, how walls go on beside buffers.
 #include <algorithm>
 #include <cmath>
 
@@ -156,7 +156,8 @@ void ExplicitSph<D>::fill_boundaries() {
   order_.measure_reach(particles_, particles_.real("h"), support_);
   const Particles<D> p = bind();
   launch("swe::invert_h", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) { p.inv_h(i) = 1.0 / p.h(i); });
-  for (auto& boundary : boundaries_) boundary.fill(order_.rows(), particles_, [this] { return bind(); }, bed_term(), next_id_);
+  for (auto& boundary : boundaries_)
+    boundary.fill(order_.rows(), particles_, [this] { return bind(); }, bed_term(), next_id_);
 }
 
 template class ExplicitSph<1>;

@@ -1,6 +1,5 @@
 // From a scene to the state at t = 0: the ground and the particles.
 #include "cellgrid/assign.hpp"
-#include "cellgrid/launch.hpp"
 #include "src/swe/solver.hpp"
 
 namespace freshet::swe {
@@ -38,8 +37,7 @@ void ExplicitSph<D>::place_particles(const std::vector<Placed>& start) {
   fill(p.h, [](const Placed& q) { return q.h0; });
   fill(p.h0, [](const Placed& q) { return q.h0; });
   fill(p.kh, [](const Placed& q) { return q.depth * power<D>(q.h0); });
-  const Field<int> id = p.id;
-  launch("swe::number", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) { id(i) = i; });
+  upload(p.id, placed.size(), [](std::size_t i) { return static_cast<int>(i); });
   next_id_ = particles_.size();
 }
 

@@ -82,7 +82,8 @@ std::vector<Placed> relaxed_lattice(const Scene& scene) {
   const std::optional<double> lake = lake_level(scene);
   ExplicitSph<D> water(still_water(scene, lake.has_value()));
   const FieldSet& f = water.fields();
-  const double level = lake.value_or(1.0), deepest = deepest_of(f), celerity = std::sqrt(scene.gravity * deepest);
+  const double level = lake.value_or(1.0), deepest = deepest_of(f);
+  const double celerity = std::sqrt(scene.gravity * deepest);
   for (int n = 0; n < most_steps && (n < 10 || fastest(f, D) > still * celerity); ++n) {
     water.step(0, water.stable_dt());
     settle(f, D, scene.sph.eta, level, 1e-6 * deepest);
@@ -94,7 +95,8 @@ std::vector<Placed> relaxed_lattice(const Scene& scene) {
     const Point at{x(i), D == 2 ? y(i) : 0.0};
     const double d = initial_depth<D>(scene, bed, at), area = m(i) / (lake ? d : 1.0);
     if (!(d > 0)) throw SceneError("water.start = \"relaxed\" needs water all over the basin; use \"cells\"");
-    placed.push_back({at, d, area, scene.sph.eta * (D == 2 ? std::sqrt(area) : area), velocity_at(scene, at[0], at[1])});
+    const double side = D == 2 ? std::sqrt(area) : area;
+    placed.push_back({at, d, area, scene.sph.eta * side, velocity_at(scene, at[0], at[1])});
   }
   return placed;
 }

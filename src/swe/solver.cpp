@@ -64,7 +64,8 @@ template <int D>
 void ExplicitSph<D>::step(double t, double dt) {
   kick_and_drift<D>(bind(), motion(), particles_.size(), dt);
   if (walls_) walls_->reflect(clusters_, bind().x, bind().v, bind().v_pred);
-  for (auto& boundary : boundaries_) boundary.exchange(particles_, [this] { return bind(); }, bed_term(), t + dt, dt, next_id_);
+  for (auto& boundary : boundaries_)
+    boundary.exchange(particles_, [this] { return bind(); }, bed_term(), t + dt, dt, next_id_);
   if (refinement_) refine();
   find_neighbours();
   if (refinement_) refinement_->relax(clusters_, neighbours_.view(), bind(), kind(), dt);

@@ -38,6 +38,7 @@ class ExplicitSph : public ShallowWater<D> {
   void build_walls();
   void build_boundaries();
   void build_refinement();  // src/swe/refine.cpp
+  Particles<D> declare(const FieldList& fields) const;
   void make_fields();
   void make_room();  // for single_
   Particles<D> bind() const;

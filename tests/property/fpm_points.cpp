@@ -29,7 +29,7 @@ struct Ride {
        fpm::PointFields carried = {})
       : set(start, dx, walls), points({dx, 3.2 * dx}, set.tank, period, carried), next_id(static_cast<int>(start.size())) {
     set.period = period;
-    fpm::PointKeeper::make_fields(set.fields);
+    fpm::PointMarks().declare(FieldList::making(set.fields));
     Kokkos::deep_copy(set.fields.integer("side"), -1);
     for (const auto& v : carried.velocities)
       for (const auto& name : v) set.fields.real(name, "m/s", Carry::state);
