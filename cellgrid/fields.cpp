@@ -105,7 +105,18 @@ Field<int> FieldSet::integer(const std::string& name, const std::string& unit, C
 Field<double> FieldSet::real(const std::string& name) const { return find_made(reals_, name); }
 Field<int> FieldSet::integer(const std::string& name) const { return find_made(integers_, name); }
 
-bool FieldSet::has(const std::string& name) const { return find(reals_, name) || find(integers_, name); }
+Field<int> FieldSet::integer_or_none(const std::string& name) const {
+  const NamedField<int>* known = find_integer(name);
+  return known ? known->data : Field<int>();
+}
+
+Field<double> FieldSet::real_or(const std::string& name, const std::string& otherwise) const {
+  return real(has(name) ? name : otherwise);
+}
+const NamedField<double>* FieldSet::find_real(const std::string& name) const { return find(reals_, name); }
+const NamedField<int>* FieldSet::find_integer(const std::string& name) const { return find(integers_, name); }
+
+bool FieldSet::has(const std::string& name) const { return find_real(name) || find_integer(name); }
 
 void FieldSet::append_copies(const Input<int>& from, int count) {
   const int first = size_;

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "cellgrid/types.hpp"
+#include "cellgrid/vec.hpp"
 
 namespace freshet {
 
@@ -45,6 +45,20 @@ class FieldSet {
 
   bool has(const std::string& name) const;
 
+  // The same, or nullptr.
+  const NamedField<double>* find_real(const std::string& name) const;
+  const NamedField<int>* find_integer(const std::string& name) const;
+
+  Field<int> integer_or_none(const std::string& name) const;  // or an empty one
+  Field<double> real_or(const std::string& name, const std::string& otherwise) const;
+
+  // Both components of a vector; in 1-D there is one.
+  template <int D>
+  VecField<double, D> vector(const char* x, const char* y) const {
+    if constexpr (D == 1) return {real(x)};
+    else return {real(x), real(y)};
+  }
+
   // Every sorted field becomes field[order[i]] for i < size.
   void permute(const Input<int>& order, int size);
 
@@ -60,6 +74,31 @@ class FieldSet {
   std::vector<NamedField<int>> integers_;
   Field<double> spare_real_;
   Field<int> spare_integer_;
+};
+
+// What a struct of fields declares its members to: each with its names, its unit and how it is carried.
+class FieldList {
+ public:
+  static FieldList making(FieldSet& set) { return {set, &set}; }
+  static FieldList binding(const FieldSet& set) { return {set, nullptr}; }  // to fields that were made
+
+  void operator()(Field<double>& member, const char* name, const char* unit, Carry carry) const {
+    member = made_ ? made_->real(name, unit, carry) : set_.real(name);
+  }
+  void operator()(Field<int>& member, const char* name, const char* unit, Carry carry) const {
+    member = made_ ? made_->integer(name, unit, carry) : set_.integer(name);
+  }
+  template <class T, int D>
+  void operator()(VecField<T, D>& member, const char* x, const char* y, const char* unit, Carry carry) const {
+    (*this)(member.x, x, unit, carry);
+    if constexpr (D == 2) (*this)(member.y, y, unit, carry);
+  }
+
+ private:
+  FieldList(const FieldSet& set, FieldSet* made) : set_(set), made_(made) {}
+
+  const FieldSet& set_;
+  FieldSet* made_;
 };
 
 }  // namespace freshet

@@ -140,7 +140,7 @@ Variant solver(const std::string& name, const Scene& scene, int against = -1) {
   return {name, make, against};
 }
 
-// A step of a flat scene and nothing else: the calls that swe::Solver makes for it.
+// A step of a flat scene and nothing else: the calls that swe::ExplicitSph makes for it.
 class Recipe {
  public:
   explicit Recipe(const Scene& scene)

@@ -49,7 +49,7 @@ void watch() {
 
 void run(const std::string& file, int steps, const std::vector<std::string>& overrides) {
   const Scene scene = read_scene(file, overrides);
-  fpm::Solver solver(scene);
+  fpm::FinitePointset solver(scene);
   for (int k = 0; k < 2; ++k) solver.step(0, solver.stable_dt());
   watch();
   long iterations = 0;

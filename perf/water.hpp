@@ -131,7 +131,7 @@ class Water {
   void add_bed() {
     const double size = side_ * dx, wave = 20 * dx;
     const auto level = [=](double x, double y) { return 0.05 * wave * std::sin(x / wave) * std::cos(y / wave); };
-    bed_ = swe::Bed<D>{BedSpline<D>(level, {{0, 0}, {size, size}, dx, 0}), true, fields_.real("bed", "m", Carry::no)};
+    bed_ = swe::BedTerm<D>{BedSpline<D>(level, {{0, 0}, {size, size}, dx, 0}), true, fields_.real("bed", "m", Carry::no)};
   }
   void add_matrix() {
     const auto p = bind();
@@ -159,7 +159,7 @@ class Water {
     fields_ = FieldSet(side_ * side_);
     for (const char* name : {"x", "y", "u", "v", "mass", "h0", "kh", "depth", "h"}) fields_.real(name, "1", Carry::sort);
     for (const char* name : {"u_pred", "v_pred", "ax", "ay", "tx", "ty", "depth_rate", "depth_growth", "inv_h", "pressure", "celerity",
-                             "weight", "signal", "strain_xx", "strain_xy", "strain_yy", "slope_x", "slope_y"})
+                             "weight", "signal", "strain_xx", "strain_xy", "strain_yy", "depth_slope_x", "depth_slope_y"})
       fields_.real(name, "1", Carry::no);
     fields_.integer("id", "1", Carry::sort);
   }
@@ -206,14 +206,11 @@ class Water {
   swe::MotionOptions<D> motion() const { return {gravity, {0.3, 3}, bed_, friction_, drag_, {}, walls_.has_value()}; }
 
   swe::Particles<D> bind() const {
-    const auto real = [this](const char* name) { return fields_.real(name); };
+    const FieldList list = FieldList::binding(fields_);
     swe::Particles<D> p;
-    p.x = {real("x"), real("y")}, p.v = {real("u"), real("v")}, p.v_pred = {real("u_pred"), real("v_pred")};
-    p.a = {real("ax"), real("ay")}, p.t = {real("tx"), real("ty")}, p.depth_slope = {real("slope_x"), real("slope_y")};
-    p.m = real("mass"), p.h0 = real("h0"), p.kh = real("kh"), p.rho = real("depth"), p.h = real("h"), p.inv_h = real("inv_h");
-    p.rate = real("depth_rate"), p.growth = real("depth_growth"), p.pressure = real("pressure"), p.celerity = real("celerity");
-    p.weight = real("weight"), p.signal = real("signal"), p.strain = {real("strain_xx"), real("strain_xy"), real("strain_yy")};
-    p.id = fields_.integer("id");
+    p.declare(list);
+    p.declare_strain(list, false);
+    p.declare_depth_slope(list);
     return p;
   }
 
@@ -224,7 +221,7 @@ class Water {
   NeighbourList neighbours_;
   Field<double> settled_rho_, settled_h_, drag_, coefficient_, vector_x_, vector_y_;
   Pairs pairs_;
-  std::optional<swe::Bed<D>> bed_;
+  std::optional<swe::BedTerm<D>> bed_;
   std::optional<swe::Friction> friction_;
   std::optional<Walls<D>> walls_;
   double stirred_ = 1;

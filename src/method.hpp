@@ -90,7 +90,7 @@ class Method {
   virtual void restore(const ScalarState& scalars) = 0;   // the whole state. Fields are filled before restore() is called.
 };
 
-// The method that the scene names; throws SceneError for an unknown name (src/swe/solver.cpp and others register here).
+// The method that the scene names; throws SceneError for an unknown name (src/run/make_method.cpp).
 std::unique_ptr<Method> make_method(const Scene& scene);
 
 }  // namespace freshet

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "cellgrid/assign.hpp"
+#include "cellgrid/on_device.hpp"
 
 namespace freshet {
 namespace {
@@ -81,10 +81,7 @@ BedSpline<D>::BedSpline(const std::function<double(double, double)>& level, cons
   const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
   range_ = {*lowest, *highest};
   steepest_ = steepest_step(values, nx_, ny_) * inv_spacing_;
-  level_ = Field<double>(Kokkos::ViewAllocateWithoutInitializing("bed.level"), values.size());
-  auto host = Kokkos::create_mirror_view(level_);
-  std::copy(values.begin(), values.end(), host.data());
-  assign(level_, host);
+  level_ = on_device("bed.level", values);
 }
 
 template class BedSpline<1>;

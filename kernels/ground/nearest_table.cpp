@@ -18,10 +18,10 @@ NearestTable::NearestTable(const std::function<double(double, double)>& value, c
   x0_ = lattice.node[0] + first_of(0) * lattice.step[0];
   y0_ = lattice.node[1] + first_of(1) * lattice.step[1];
   value_ = Field<double>(Kokkos::ViewAllocateWithoutInitializing("ground.table"), static_cast<size_t>(nx_) * static_cast<size_t>(ny_));
-  auto host = Kokkos::create_mirror_view(value_);
-  for (int j = 0; j < ny_; ++j)
-    for (int i = 0; i < nx_; ++i) host(j * nx_ + i) = value(x0_ + i * lattice.step[0], y0_ + j * lattice.step[1]);
-  assign(value_, host);
+  upload(value_, value_.extent(0), [&](std::size_t k) {
+    const int i = static_cast<int>(k) % nx_, j = static_cast<int>(k) / nx_;
+    return value(x0_ + i * lattice.step[0], y0_ + j * lattice.step[1]);
+  });
 }
 
 }  // namespace freshet

@@ -13,7 +13,7 @@ KOKKOS_FORCEINLINE_FUNCTION Lane growth(Lane z) {
 
 // What the bed adds to a = -t, storing its level: -B (g + v.k v - t.B) / (1 + B.B); classical: -g B, without curvature.
 template <int D>
-KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, D> bed_acceleration(const Bed<D>& bed, const Lanes& me, const Particles<D>& f,
+KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, D> bed_acceleration(const BedTerm<D>& bed, const Lanes& me, const Particles<D>& f,
                                                           const Vec<Lane, D>& a, Lane g) {
   if (!bed.variational) {
     const BedPoint<Lane, D> b = bed.spline.sloped_at(me.load(f.x));
@@ -64,7 +64,7 @@ template <int D>
 double accelerate_and_kick(const Particles<D>& p, const MotionOptions<D>& options, int n, double kick_dt) {
   const Particles<D> f = p;
   const bool with_bed = options.bed.has_value(), friction = options.friction.has_value();
-  const std::optional<Bed<D>> bed = options.bed;
+  const std::optional<BedTerm<D>> bed = options.bed;
   const std::optional<Friction> roughness = options.friction;
   const Lane g = options.gravity;
   const Field<double> drag_field = options.drag;

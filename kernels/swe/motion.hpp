@@ -39,7 +39,7 @@ KOKKOS_FORCEINLINE_FUNCTION Vec<V, D> slowed(const Vec<V, D>& v, V drag, V dt) {
 
 // The bed's part in a step: where it is absent no pass, no field.
 template <int D>
-struct Bed {
+struct BedTerm {
   BedSpline<D> spline;
   bool variational;           // corrected (2.23) with curvature; else classical a = -t - g grad b
   Field<double> level;        // m, b under each particle
@@ -49,7 +49,7 @@ template <int D>
 struct MotionOptions {
   double gravity;
   LengthBounds bounds;
-  std::optional<Bed<D>> bed;
+  std::optional<BedTerm<D>> bed;
   std::optional<Friction> friction;
   Field<double> drag;   // 1/m, with friction
   ImposedLanes imposed; // these move at their imposed velocity

@@ -1,6 +1,7 @@
 // The particle fields of explicit SPH for the shallow water equations (Vacondio 2010, ch. 2).
 // Units: rho_w = 1, so that the density per area rho is the depth d [m] and the mass m is a volume [m3] (1-D: [m2], unit width).
 #pragma once
+#include "cellgrid/fields.hpp"
 #include "cellgrid/twin.hpp"
 #include "kernels/smoothing/smoothing.hpp"
 
@@ -16,26 +17,58 @@ struct SingleCopies {
 
 template <int D>
 struct Particles {
-  VecField<double, D> x;        // m
-  VecField<double, D> v;        // m/s: at t, or at t + dt/2 inside a step
-  VecField<double, D> v_pred;   // m/s: predicted at t + dt, what pairs see
-  VecField<double, D> a;        // m/s2
-  Field<double> m;              // m3
-  Field<double> h0;             // m, reference smoothing length: bounds of h
-  Field<double> kh;             // rho0 h0^D: the constant of rho h^D = kh (2.5)
-  Field<double> rho;            // m, density = depth
-  Field<double> rate;           // m/s, d rho/dt (2.34)
-  Field<double> growth;         // m/s, d rho/dt expected in the middle of the next step
-  Field<double> h, inv_h;       // m, 1/m
-  Field<double> pressure;       // m/s2: g / (2 alpha), p / (rho^2 alpha) of (2.22)
-  Field<double> celerity;       // m/s: sqrt(g d)
-  Field<double> weight;         // m norm / h^(D+1): what multiplies dw/dq as seen from a neighbour
-  SymField<double, D> strain;   // 1/s, symmetric part of grad v: reconstruction of the normal velocity
-  VecField<double, D> depth_slope;  // 1, grad rho: reconstruction of the depth
-  VecField<double, D> t;        // m/s2, pressure and stabilisation: (1/m) d pi_int/dx
-  Field<double> signal;         // m/s, max_j |v_ij . x_ij| / r
+  VecField<double, D> x;
+  VecField<double, D> v;            // at t, or at t + dt/2 inside a step
+  VecField<double, D> v_pred;       // predicted at t + dt, what pairs see
+  VecField<double, D> a;
+  Field<double> m;
+  Field<double> h0;                 // reference smoothing length: bounds of h
+  Field<double> kh;                 // rho0 h0^D: the constant of rho h^D = kh (2.5)
+  Field<double> rho;                // density = depth
+  Field<double> rate;               // d rho/dt (2.34)
+  Field<double> growth;             // d rho/dt expected in the middle of the next step
+  Field<double> h, inv_h;
+  Field<double> pressure;           // g / (2 alpha), p / (rho^2 alpha) of (2.22)
+  Field<double> celerity;           // sqrt(g d)
+  Field<double> weight;             // m norm / h^(D+1): what multiplies dw/dq as seen from a neighbour
+  SymField<double, D> strain;       // symmetric part of grad v: reconstruction of the normal velocity
+  VecField<double, D> depth_slope;  // grad rho: reconstruction of the depth
+  VecField<double, D> t;            // pressure and stabilisation: (1/m) d pi_int/dx
+  Field<double> signal;             // max_j |v_ij . x_ij| / r
   Field<int> id;
   SingleCopies single;
+
+  void declare(const FieldList& field) {
+    const char* volume = D == 1 ? "m2" : "m3";
+    field(x, "x", "y", "m", Carry::state);
+    field(v, "u", "v", "m/s", Carry::state);
+    field(v_pred, "u_pred", "v_pred", "m/s", Carry::sort);
+    field(a, "ax", "ay", "m/s2", Carry::result);
+    field(t, "tx", "ty", "m/s2", Carry::no);
+    field(m, "mass", volume, Carry::state);
+    field(kh, "kh", volume, Carry::state);
+    field(h0, "h0", "m", Carry::state);
+    field(rho, "depth", "m", Carry::state);
+    field(h, "h", "m", Carry::state);
+    field(rate, "depth_rate", "m/s", Carry::state);
+    field(growth, "depth_growth", "m/s", Carry::result);
+    field(inv_h, "inv_h", "1/m", Carry::no);
+    field(pressure, "pressure", "m/s2", Carry::no);
+    field(celerity, "celerity", "m/s", Carry::no);
+    field(signal, "signal", "m/s", Carry::no);
+    field(weight, "weight", "1", Carry::no);
+    field(id, "id", "1", Carry::state);
+  }
+  // Only where the stabilisation reconstructs from it. kept: new particles start from it (splitting).
+  void declare_strain(const FieldList& field, bool kept) {
+    const Carry carry = kept ? Carry::result : Carry::no;
+    field(strain.xx, "strain_xx", "1/s", carry);
+    if constexpr (D == 2) field(strain.xy, "strain_xy", "1/s", carry);
+    if constexpr (D == 2) field(strain.yy, "strain_yy", "1/s", carry);
+  }
+  void declare_depth_slope(const FieldList& field) {
+    field(depth_slope, "depth_slope_x", "depth_slope_y", "1", Carry::no);
+  }
 };
 
 // Smoothing length of a depth: rho h^D = kh.

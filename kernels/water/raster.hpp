@@ -24,6 +24,11 @@ struct SortedWater {
   Field<double> mass, depth, h;  // m3, m, m
   Field<int> kind;               // not 0: no water (boundary particles); empty: all are water
 };
+template <int D>
+SortedWater<D> sorted_water(const Rows& rows, const FieldSet& f) {
+  return {rows,           f.vector<D>("x", "y"), f.vector<D>("u", "v"), f.real("mass"),
+          f.real("depth"), f.real("h"),          f.integer_or_none("kind")};
+}
 
 // Sums at a place: cover is 1 inside the water, 1/2 at its edge, and 0 beyond the particles' kernels.
 template <int D>

@@ -14,7 +14,7 @@ constexpr double coarsest = 4;  // x water.spacing
 double squared_distance(const Point& a, const Point& b) { return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]); }
 
 // From a towards b, which is left out: as many places as the mean of 1 / spacing asks for, at equal parts of its integral.
-void walk(const Scene& scene, const Point& a, const Point& b, std::vector<Node>& nodes) {
+void walk(const Scene& scene, const Point& a, const Point& b, std::vector<Seed>& nodes) {
   constexpr int samples = 1000;
   const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
   const auto place = [&](double s) { return Point{a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])}; };
@@ -62,12 +62,12 @@ double spacing_at(const Scene& scene, const Point& x) {
   return scene.water.spacing * (scene.fpm->grading ? scene.fpm->grading(x[0], x[1]) : 1.0);
 }
 
-std::vector<Node> graded_nodes(const Scene& scene, const std::vector<Point>& outline) {
-  std::vector<Node> nodes;
+std::vector<Seed> graded_nodes(const Scene& scene, const std::vector<Point>& outline) {
+  std::vector<Seed> nodes;
   for (std::size_t k = 0; k < outline.size(); ++k) walk(scene, outline[k], outline[(k + 1) % outline.size()], nodes);
   const Box box = bounds_of(outline);
   Chosen chosen(box, coarsest * apart * scene.water.spacing);
-  for (const Node& node : nodes) chosen.add(node.x);
+  for (const Seed& node : nodes) chosen.add(node.x);
   const double step = 0.25 * scene.water.spacing;
   for (double y = box.ylo + step; y < box.yhi; y += step)
     for (double x = box.xlo + step; x < box.xhi; x += step)

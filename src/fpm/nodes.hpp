@@ -6,7 +6,7 @@
 
 namespace freshet::fpm {
 
-struct Node {
+struct Seed {
   Point x;      // m
   bool inside;  // off the outline: may be displaced
 };
@@ -14,6 +14,6 @@ struct Node {
 // The spacing [m] at a place.
 double spacing_at(const Scene& scene, const Point& x);
 
-std::vector<Node> graded_nodes(const Scene& scene, const std::vector<Point>& outline);
+std::vector<Seed> graded_nodes(const Scene& scene, const std::vector<Point>& outline);
 
 }  // namespace freshet::fpm

@@ -9,10 +9,9 @@
 
 namespace freshet::fpm {
 
-class Solver : public Method {
+class FinitePointset : public Method {
  public:
-  explicit Solver(const Scene& scene);
-  ~Solver() override;
+  explicit FinitePointset(const Scene& scene);
 
   std::string name() const override { return "fpm"; }
   int dimension() const override { return 2; }
@@ -38,9 +37,12 @@ class Solver : public Method {
   const PointCount& counts() const { return counts_; }  // since t = 0
 
  private:
+  Flow declare(const FieldList& fields) const;
   void make_fields();
   Flow bind() const;
+  void manage_points();
   void size_supports();
+  void require_solved(const ProjectionReport& projected);
 
   Scene scene_;
   FieldSet points_;
@@ -48,7 +50,7 @@ class Solver : public Method {
   Period period_;
   Tank tank_;
   std::optional<Grading> grading_;
-  Points management_;
+  PointKeeper management_;
   NeighbourFinder<2> finder_;
   mutable Projection projection_;  // pressures of gauges are solved for with its rows
   AreaKeeper keeper_;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "cellgrid/assign.hpp"
 #include "src/errors.hpp"
 #include "src/io/files.hpp"
 #include "src/io/hdf5.hpp"
@@ -50,13 +51,6 @@ Values read_values(const hdf5::Group& group) {
   Values values;
   for (const auto& name : group.names()) values[name] = group.reals(name);
   return values;
-}
-
-template <class T>
-void fill(const Field<T>& field, const std::vector<T>& values) {
-  const auto mirror = on_host(field);
-  for (std::size_t i = 0; i < values.size(); ++i) mirror(i) = values[i];
-  Kokkos::deep_copy(field, mirror);
 }
 
 template <class T>
@@ -119,10 +113,10 @@ void read_checkpoint_fields(const std::string& path, FieldSet& fields) {
   require_fields(integers, fields.integers(), path);
   fields.resize(static_cast<int>(file.real_attribute("particles")));
   for (const auto& name : reals.names()) {
-    fill(fields.real(name, reals.text_attribute("unit", name), Carry::state), reals.reals(name));
+    upload(fields.real(name, reals.text_attribute("unit", name), Carry::state), reals.reals(name));
   }
   for (const auto& name : integers.names()) {
-    fill(fields.integer(name, integers.text_attribute("unit", name), Carry::state), integers.integers(name));
+    upload(fields.integer(name, integers.text_attribute("unit", name), Carry::state), integers.integers(name));
   }
 }
 

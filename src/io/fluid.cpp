@@ -1,21 +1,12 @@
 #include "src/io/fluid.hpp"
 
 namespace freshet {
-namespace {
-
-template <class T>
-const NamedField<T>* find(const std::vector<NamedField<T>>& fields, const std::string& name) {
-  for (const auto& field : fields) {
-    if (field.name == name) return &field;
-  }
-  return nullptr;
-}
 
 std::vector<int> fluid_indices(const FieldSet& fields) {
   std::vector<int> indices;
   indices.reserve(static_cast<std::size_t>(fields.size()));
   // Wall points of a method without depths are water like any other.
-  const auto* kind = find_real(fields, "depth") ? find_integer(fields, "kind") : nullptr;
+  const auto* kind = fields.has("depth") ? fields.find_integer("kind") : nullptr;
   decltype(on_host(Field<int>())) kinds;
   if (kind) kinds = on_host(kind->data);
   for (int i = 0; i < fields.size(); ++i) {
@@ -24,36 +15,12 @@ std::vector<int> fluid_indices(const FieldSet& fields) {
   return indices;
 }
 
-template <class T>
-std::vector<T> gather(const NamedField<T>* field, const std::vector<int>& indices) {
-  std::vector<T> values(indices.size(), T(0));
-  if (!field) return values;
-  const auto data = on_host(field->data);
-  for (std::size_t k = 0; k < indices.size(); ++k) values[k] = data(indices[k]);
-  return values;
-}
-
-}  // namespace
-
-const NamedField<double>* find_real(const FieldSet& fields, const std::string& name) {
-  return find(fields.reals(), name);
-}
-
-const NamedField<int>* find_integer(const FieldSet& fields, const std::string& name) {
-  return find(fields.integers(), name);
-}
-
-Field<double> field_or(const FieldSet& fields, const std::string& name, const std::string& otherwise) {
-  const auto* field = find_real(fields, name);
-  return field ? field->data : find_real(fields, otherwise)->data;
-}
-
 Fluid fluid_on_host(const FieldSet& fields) {
   const auto indices = fluid_indices(fields);
-  const auto real = [&](const char* name) { return gather(find_real(fields, name), indices); };
+  const auto real = [&](const char* name) { return gather(fields.find_real(name), indices); };
   return {real("x"),    real("y"),     real("u"),
           real("v"),    real("depth"), real("bed"),
-          real("mass"), real("h"),     gather(find_integer(fields, "id"), indices)};
+          real("mass"), real("h"),     gather(fields.find_integer("id"), indices)};
 }
 
 int fluid_count(const FieldSet& fields) { return static_cast<int>(fluid_indices(fields).size()); }

@@ -17,12 +17,18 @@ struct Fluid {
   std::size_t size() const { return x.size(); }
 };
 
+// Places of the fluid particles in the fields, and what a field holds there; zeros if nobody made it.
+std::vector<int> fluid_indices(const FieldSet& fields);
+template <class T>
+std::vector<T> gather(const NamedField<T>* field, const std::vector<int>& indices) {
+  std::vector<T> values(indices.size(), T(0));
+  if (!field) return values;
+  const auto data = on_host(field->data);
+  for (std::size_t k = 0; k < indices.size(); ++k) values[k] = data(indices[k]);
+  return values;
+}
+
 Fluid fluid_on_host(const FieldSet& fields);
 int fluid_count(const FieldSet& fields);
-
-// The named field, or nullptr if the method does not have it.
-const NamedField<double>* find_real(const FieldSet& fields, const std::string& name);
-Field<double> field_or(const FieldSet& fields, const std::string& name, const std::string& otherwise);
-const NamedField<int>* find_integer(const FieldSet& fields, const std::string& name);
 
 }  // namespace freshet

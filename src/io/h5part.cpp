@@ -1,6 +1,7 @@
 #include "src/io/h5part.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "src/errors.hpp"
 #include "src/io/files.hpp"
@@ -11,16 +12,9 @@ namespace freshet {
 namespace {
 
 const std::string prefix = "Step#";
-const char* const units = "x m, y m, z m (free surface), depth m, p Pa, v_0 m/s, v_1 m/s, id 1, TimeValue s";
 constexpr std::uint64_t metadata_bytes = 64 * 1024;  // groups and headers of one step, generously
 
 std::string group_name(int step) { return prefix + std::to_string(step); }
-
-std::vector<double> surface(const Fluid& fluid) {
-  std::vector<double> z(fluid.size());
-  for (std::size_t i = 0; i < z.size(); ++i) z[i] = fluid.bed[i] + fluid.depth[i];
-  return z;
-}
 
 std::vector<int> step_numbers(const hdf5::File& file) {
   std::vector<int> steps;
@@ -31,46 +25,97 @@ std::vector<int> step_numbers(const hdf5::File& file) {
   return steps;
 }
 
-// What incompressible methods have instead of a depth.
-void write_pressure(const hdf5::Group& group, const FieldSet& fields) {
-  const auto n = static_cast<std::size_t>(fields.size());
-  const auto p = on_host(fields.real("p"));
-  const auto flag = on_host(fields.integer("surface"));
-  group.write("p", std::vector<double>(p.data(), p.data() + n), hdf5::Stored::float32);
-  group.write("surface", std::vector<int>(flag.data(), flag.data() + n));
-}
+// What a step may hold of the water's particles, by the names of [output] fields.
+class Columns {
+ public:
+  Columns(const FieldSet& fields, double spacing) : fields_(fields), spacing_(spacing) {}
+
+  // Those that the method has, each once.
+  std::vector<std::string> those_of(const std::optional<std::vector<std::string>>& wanted) const {
+    const std::vector<std::string> usual{"z", "depth", "p", "u", "v", "surface", "size"};
+    std::vector<std::string> names;
+    for (const std::string& name : wanted ? *wanted : usual)
+      if (has(name) && std::count(names.begin(), names.end(), name) == 0) names.push_back(name);
+    return names;
+  }
+  std::string unit(const std::string& name) const {
+    if (name == "z") return "m (free surface)";
+    if (name == "bed" || name == "size") return "m";
+    const auto* real = fields_.find_real(name);
+    return real ? real->unit : fields_.find_integer(name)->unit;
+  }
+  void write(const hdf5::Group& group, const std::string& name, const std::vector<int>& water) const {
+    if (const auto* integer = fields_.find_integer(name)) return group.write(name, gather(integer, water));
+    group.write(dataset(name), values(name, water), hdf5::Stored::float32);
+  }
+  static std::string dataset(const std::string& name) {
+    return name == "u" ? "v_0" : name == "v" ? "v_1" : name;
+  }
+
+ private:
+  bool has(const std::string& name) const {
+    if (name == "z" || name == "bed") return fields_.has("depth");
+    if (name == "size") return (fields_.has("depth") && fields_.has("mass")) || spacing_ > 0;
+    return fields_.has(name);
+  }
+  std::vector<double> real(const std::string& name, const std::vector<int>& water) const {
+    return gather(fields_.find_real(name), water);
+  }
+  std::vector<double> values(const std::string& name, const std::vector<int>& water) const {
+    if (name == "size") return sizes(water);
+    if (name != "z") return real(name, water);
+    std::vector<double> z = real("bed", water), depth = real("depth", water);
+    for (std::size_t k = 0; k < z.size(); ++k) z[k] += depth[k];
+    return z;
+  }
+  // m, of a square (in 1-D an interval) as large as what the particle covers; 0 where it is dry.
+  std::vector<double> sizes(const std::vector<int>& water) const {
+    if (fields_.has("dx")) return real("dx", water);
+    if (!fields_.has("depth")) return std::vector<double>(water.size(), spacing_);
+    std::vector<double> size = real("mass", water);
+    const std::vector<double> depth = real("depth", water);
+    for (std::size_t k = 0; k < size.size(); ++k) {
+      const double area = depth[k] > 0 ? size[k] / depth[k] : 0;
+      size[k] = fields_.has("y") ? std::sqrt(area) : area;
+    }
+    return size;
+  }
+
+  const FieldSet& fields_;
+  double spacing_;
+};
 
 }  // namespace
 
-void ParticleFile::create(const std::string& scene_text, const std::string& version) const {
+void ParticleFile::create(const std::string& scene_text, const std::string& version,
+                          const FieldSet& fields) const {
   require_space(folder_of(path_), metadata_bytes + scene_text.size());
+  const Columns columns(fields, spacing_);
+  std::string units = "x m, y m, ";
+  for (const std::string& name : columns.those_of(wanted_))
+    units += Columns::dataset(name) + ' ' + columns.unit(name) + ", ";
   auto file = hdf5::File::make(path_);
   {
     const auto about = file.create("freshet");
     about.write("scene", scene_text);
     about.attribute("version", version);
-    about.attribute("units", units);
+    about.attribute("units", units + "id 1, TimeValue s");
   }
   file.close();
 }
 
 void ParticleFile::append(int step, double t, const FieldSet& fields) const {
-  const Fluid fluid = fluid_on_host(fields);
-  reserve_space(path_, metadata_bytes + fluid.size() * (2 * 8 + 5 * 4));
+  const Columns columns(fields, spacing_);
+  const std::vector<std::string> names = columns.those_of(wanted_);
+  const std::vector<int> water = fluid_indices(fields);
+  reserve_space(path_, metadata_bytes + water.size() * (2 * 8 + 4 * (names.size() + 1)));
   auto file = hdf5::File::change(path_);
   {
     const auto group = file.create(group_name(step));
     group.attribute("TimeValue", t);
-    group.write("x", fluid.x);
-    group.write("y", fluid.y);
-    if (find_real(fields, "depth")) {
-      group.write("z", surface(fluid), hdf5::Stored::float32);
-      group.write("depth", fluid.depth, hdf5::Stored::float32);
-    }
-    group.write("v_0", fluid.u, hdf5::Stored::float32);
-    if (find_real(fields, "v")) group.write("v_1", fluid.v, hdf5::Stored::float32);
-    group.write("id", fluid.id);
-    if (find_real(fields, "p")) write_pressure(group, fields);
+    for (const char* name : {"x", "y"}) group.write(name, gather(fields.find_real(name), water));
+    for (const std::string& name : names) columns.write(group, name, water);
+    group.write("id", gather(fields.find_integer("id"), water));
   }
   file.close();
 }
@@ -106,9 +151,12 @@ ParticleStep read_particle_step(const std::string& path, int step) {
   read.t = group.real_attribute("TimeValue");
   read.x = group.reals("x");
   read.y = group.reals("y");
-  read.z = group.has("z") ? group.reals("z") : std::vector<double>(read.x.size(), 0.0);
-  read.depth = group.has("depth") ? group.reals("depth") : read.z;
-  read.v_0 = group.reals("v_0");
+  const auto held = [&](const char* name) {
+    return group.has(name) ? group.reals(name) : std::vector<double>(read.x.size(), 0.0);
+  };
+  read.z = held("z");
+  read.depth = held("depth");
+  read.v_0 = held("v_0");
   if (group.has("v_1")) read.v_1 = group.reals("v_1");
   read.id = group.integers("id");
   return read;

@@ -1,26 +1,31 @@
 #include "src/errors.hpp"
 #include "src/fpm/solver.hpp"
 #include "src/method.hpp"
-#include "src/sisph/solver.hpp"
+#include "src/sisph/at_rest.hpp"
+#include "src/sisph/moving.hpp"
+#include "src/swe/relax.hpp"
 #include "src/swe/solver.hpp"
 
 namespace freshet {
-
 namespace {
 
-template <template <int> class Solver>
-std::unique_ptr<Method> in_dimension(const Scene& scene) {
-  if (scene.domain.dimension == 1) return std::make_unique<Solver<1>>(scene);
-  return std::make_unique<Solver<2>>(scene);
+template <int D>
+std::unique_ptr<Method> make_shallow(const Scene& scene) {
+  if (scene.method == "sph-swe" && scene.water.start == Water::Start::relaxed)
+    return std::make_unique<swe::ExplicitSph<D>>(scene, swe::relaxed_lattice<D>(scene));
+  if (scene.method == "sph-swe") return std::make_unique<swe::ExplicitSph<D>>(scene);
+  if (scene.sisph.formulation == Sisph::Formulation::moving)
+    return std::make_unique<sisph::LagrangianSph<D>>(scene);
+  return std::make_unique<sisph::EulerianSph<D>>(scene);
 }
 
 }  // namespace
 
 std::unique_ptr<Method> make_method(const Scene& scene) {
-  if (scene.method == "sph-swe") return in_dimension<swe::Solver>(scene);
-  if (scene.method == "sisph") return in_dimension<sisph::Solver>(scene);
-  if (scene.method == "fpm") return std::make_unique<fpm::Solver>(scene);
-  throw SceneError("scene.method '" + scene.method + "' is none of: sph-swe, sisph, fpm");
+  if (scene.method == "fpm") return std::make_unique<fpm::FinitePointset>(scene);
+  if (scene.method != "sph-swe" && scene.method != "sisph")
+    throw SceneError("scene.method '" + scene.method + "' is none of: sph-swe, sisph, fpm");
+  return scene.domain.dimension == 1 ? make_shallow<1>(scene) : make_shallow<2>(scene);
 }
 
 }  // namespace freshet

@@ -70,12 +70,20 @@ void read_time(Table& section, const ComparePlan& compare, Scene& scene) {
   scene.time_step = step.otherwise(scene.time_step);
 }
 
+// What the points of the method have (src/io/h5part.cpp).
+std::vector<std::string> particle_fields(const Scene& scene) {
+  if (scene.method == "fpm") return {"u", "v", "p", "surface", "h", "size"};
+  if (scene.domain.dimension == 1) return {"z", "depth", "u", "mass", "h", "bed", "size"};
+  return {"z", "depth", "u", "v", "mass", "h", "bed", "size"};
+}
+
 void read_output(Table& section, Scene& scene) {
   Output& output = scene.output;
   output.every = read_duration(section, "every", scene).value_or(output.every);
   output.gauges_every = read_duration(section, "gauges_every", scene).value_or(output.gauges_every);
   output.checkpoint_every =
       section.number("checkpoint_every", "s").at_least(0).otherwise(output.checkpoint_every);
+  output.fields = section.words("fields", particle_fields(scene)).optional();
 }
 
 void read_limits(Table& section, Scene& scene) {

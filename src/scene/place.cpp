@@ -17,9 +17,7 @@ namespace {
 
 double finite_depth(const Function& depth, double x, double y) {
   const double d = depth(x, y);
-  if (!std::isfinite(d))
-    throw SceneError("water: the depth at (" + std::to_string(x) + ", " + std::to_string(y) +
-                     ") m is not a finite number; check the expressions of [water] and [bed] there");
+  require_finite(d, {x, y});
   return d;
 }
 
@@ -30,9 +28,8 @@ struct Cells {
   double centre(int k) const { return low + (k + 0.5) * width; }
 };
 Cells cells_along(const Scene& scene, int axis) {
-  const double length = scene.domain.high[axis] - scene.domain.low[axis];
-  const int n = std::max(1, static_cast<int>(std::lround(length / scene.water.spacing)));
-  return {n, scene.domain.low[axis], length / n};
+  const double length = scene.domain.high[axis] - scene.domain.low[axis], width = cell_width(scene, axis);
+  return {static_cast<int>(std::lround(length / width)), scene.domain.low[axis], width};
 }
 
 // The part of a cell that is in the water and its middle: all or nothing where corners and centre agree.
@@ -138,6 +135,17 @@ Point velocity_at(const Scene& scene, double x, double y) {
   for (int k = 0; k < 2; ++k)
     if (scene.water.velocity[k]) v[k] = scene.water.velocity[k](x, y);
   return v;
+}
+
+double cell_width(const Scene& scene, int axis) {
+  const double length = scene.domain.high[axis] - scene.domain.low[axis];
+  return length / std::max(1.0, std::round(length / scene.water.spacing));
+}
+
+void require_finite(double depth, const Point& x) {
+  if (!std::isfinite(depth))
+    throw SceneError("water: the depth at (" + std::to_string(x[0]) + ", " + std::to_string(x[1]) +
+                     ") m is not a finite number; check the expressions of [water] and [bed] there");
 }
 
 std::vector<Placed> place(const Scene& scene, const Function& depth) {

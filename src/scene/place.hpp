@@ -16,6 +16,8 @@ struct Placed {
 };
 
 Point velocity_at(const Scene& scene, double x, double y);  // m/s, at t = 0
+double cell_width(const Scene& scene, int axis);            // m, of the lattice below
+void require_finite(double depth, const Point& x);          // SceneError
 
 // Cell-centred lattice whose cells fill the domain's box exactly (so dx and dy may differ by a little), or in 1-D particles
 // of equal mass. depth(x, y) [m]; places where depth > scene.water.wet_above and 1e-9 of the deepest. Throws SceneError if nothing is wet or a

@@ -225,6 +225,7 @@ struct Output {
   double every = 0;         // s, particle output (0 = first and last state only)
   double gauges_every = 0;  // s (0 = as `every`)
   double checkpoint_every = 600;  // s of wall clock
+  std::optional<std::vector<std::string>> fields;  // of particles.h5part; absent: as ParticleFile has them
 };
 
 // Maps on a grid of square cells that covers the domain.

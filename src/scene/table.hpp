@@ -135,6 +135,7 @@ class Table {
   Value<E> choice(const std::string& key, const std::vector<std::pair<std::string, E>>& choices);
   template <class E>  // an array of such words
   Value<std::vector<E>> choices(const std::string& key, const std::vector<std::pair<std::string, E>>& choices);
+  Value<std::vector<std::string>> words(const std::string& key, const std::vector<std::string>& known);
 
   // Shapes.
   Value<std::vector<double>> numbers(const std::string& key, const std::string& what = "numbers");
@@ -180,7 +181,6 @@ class Table {
   Place place_from(const toml::source_region& region) const;
   std::optional<Function> compiled(const toml::node& node, const std::string& path);
   Value<std::string> word(const std::string& key, const std::vector<std::string>& words);
-  Value<std::vector<std::string>> words(const std::string& key, const std::vector<std::string>& known);
 
   Context& context_;
   toml::table* table_;

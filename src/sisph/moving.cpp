@@ -1,4 +1,5 @@
-// Formulation L: a step of particles that move with the water, and how long it may be.
+#include "src/sisph/moving.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -6,7 +7,6 @@
 #include "cellgrid/assign.hpp"
 #include "cellgrid/launch.hpp"
 #include "src/errors.hpp"
-#include "src/sisph/solver.hpp"
 
 namespace freshet::sisph {
 namespace {
@@ -21,46 +21,51 @@ std::string text(double value) {
 
 }  // namespace
 
-// Formulation L: the masses are there; the geometry at rest is of no more use.
 template <int D>
-void Solver<D>::start_moving() {
+LagrangianSph<D>::LagrangianSph(const Scene& scene)
+    : Base(scene), moving_(particles_.size(), kernel_, Base::mirror_walls(), options()) {
+  Base::measure();  // the masses; the geometry at rest is of no more use
+  require_water();
+  const Swarm<D> now = swarm();
+  const Vec<double, D> low = to_vec<D>(scene_.domain.low), high = to_vec<D>(scene_.domain.high);
+  if (held_ > 0)
+    moving_.set_followers(Followers<D>(particles_.size(), {order_.rows(), now.x, now.id, now.kind, low, high,
+                                                           scene_.water.spacing}));
+  lay_friction();
+  moving_.measure_jump(swarm());
+  Base::measure_speeds();
+}
+
+template <int D>
+MovingOptions LagrangianSph<D>::options() const {
+  const Sisph& sisph = scene_.sisph;
+  const double h = on_host(particles_.real("h"))(0), dx = scene_.water.spacing;
+  return {scene_.gravity, sisph.theta, sisph.picard, dx, h, support_, lattice_moment<D>(kernel_, h, dx),
+          sisph.exact_slopes, sisph.cg.tolerance, sisph.cg.most};
+}
+
+template <int D>
+void LagrangianSph<D>::require_water() const {
   const auto depth = on_host(particles_.real("depth"));
   int dry = 0;
   for (int i = 0; i < particles_.size(); ++i) dry += depth(i) > 0 ? 0 : 1;
   if (dry > 0)
     throw SceneError(scene_.file + ": error: sisph.formulation = \"moving\" needs water everywhere, and " + std::to_string(dry) +
                      " particles are dry (those beside the domain counted)\n  help: sisph.formulation = \"at-rest\"");
-  const Sisph& sisph = scene_.sisph;
-  const double h = on_host(particles_.real("h"))(0);
-  moving_.emplace(particles_.size(), kernel_, mirror_walls(),
-                  MovingOptions{scene_.gravity, sisph.theta, sisph.picard, scene_.water.spacing, h, support_,
-                                lattice_moment<D>(kernel_, h, scene_.water.spacing),
-                                sisph.exact_slopes, sisph.cg.tolerance, sisph.cg.most});
-  geometry_ = Geometry<D>{};
-  if (sisph.path.remembers)
-    for (const char* name : {"u_before", "v_before"})
-      if (D == 2 || name[0] == 'u') particles_.real(name, "m/s", Carry::state);
-  if (held_ > 0)
-    moving_->set_followers(Followers<D>(particles_.size(), {order_.rows(), swarm().x, particles_.integer("id"), particles_.integer("kind"),
-                                                            to_vec<D>(scene_.domain.low), to_vec<D>(scene_.domain.high), scene_.water.spacing}));
-  roughen();
-  moving_->measure_jump(swarm());
 }
 
 // Friction of the ground that particles move over: by place, or one for all.
 template <int D>
-void Solver<D>::roughen() {
+void LagrangianSph<D>::lay_friction() {
   if (!scene_.manning) return;
   const Manning& manning = *scene_.manning;
   for (Field<double>* f : {&g_n2_, &drag_}) *f = Field<double>("sisph.friction", static_cast<std::size_t>(particles_.size()) + lanes);
-  const double g = scene_.gravity;
-  if (!manning.map) return assign(g_n2_, g * manning.n * manning.n);
-  const auto squared = [&](double x, double y) { const double n = manning.map(x, y); return g * n * n; };
-  ground_ = NearestTable(squared, {scene_.domain.low, scene_.domain.high, manning.node, manning.step});
+  ground_ = Base::roughness(scene_.gravity);
+  if (!manning.map) assign(g_n2_, scene_.gravity * manning.n * manning.n);
 }
 
 template <int D>
-void Solver<D>::find_friction(double dt) {
+void LagrangianSph<D>::find_friction(double dt) {
   if (drag_.extent(0) == 0) return;
   if (ground_.given()) {
     const NearestTable ground = ground_;
@@ -68,18 +73,18 @@ void Solver<D>::find_friction(double dt) {
     const Field<double> g_n2 = g_n2_;
     launch("sisph::ground", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) { g_n2(i) = ground.at(at(x, i)); });
   }
-  find_drag<D>(particles_.size(), water(), g_n2_, dt, drag_);
+  find_drag<D>(particles_.size(), Base::water(), g_n2_, dt, drag_);
 }
 
 template <int D>
-PathWeights Solver<D>::path(double dt) const {
+PathWeights LagrangianSph<D>::path(double dt) const {
   return scene_.sisph.path.weights({scene_.sisph.theta, dt, last_dt_});
 }
 
 // A step, in as many parts as it takes for each to hold: what does not settle, or moves neighbours much further than they should, is
 // tried again with half the step, and steps grow again from there.
 template <int D>
-void Solver<D>::move_with_water(double t, double dt) {
+void LagrangianSph<D>::step(double t, double dt) {
   constexpr double growth = 1.25, rounding = 1e-9;
   for (double left = dt; left > 0;) {
     const double parts = std::max(1.0, std::ceil(left / allowed_ - rounding)), part = left / parts;
@@ -88,20 +93,20 @@ void Solver<D>::move_with_water(double t, double dt) {
       shorten(t + dt - left, part, r);
       continue;
     }
-    moving_->arrive(swarm(), bed_ ? &*bed_ : nullptr, path(part), part);
+    moving_.arrive(swarm(), Base::bed(), path(part), part);
     last_dt_ = part;
     allowed_ = std::min(growth * allowed_, unbounded);
     left = parts > 1 ? left - part : 0;
     settle_order();
   }
   report_.newton_max = 1;
-  measure_speeds();
+  Base::measure_speeds();
 }
 
 template <int D>
-MovingReport Solver<D>::try_to_move(double dt) {
+MovingReport LagrangianSph<D>::try_to_move(double dt) {
   find_friction(dt);
-  const MovingReport r = moving_->attempt(swarm(), bed_ ? &*bed_ : nullptr, path(dt), dt);
+  const MovingReport r = moving_.attempt(swarm(), Base::bed(), path(dt), dt);
   report_.passes += r.solves;
   report_.solves += r.solves;
   report_.iterations += r.iterations;
@@ -110,18 +115,19 @@ MovingReport Solver<D>::try_to_move(double dt) {
 
 // Velocities at the end bound the step as well: those at its start do not know what the surface will do.
 template <int D>
-bool Solver<D>::holds(const MovingReport& r, double dt) const {
+bool LagrangianSph<D>::holds(const MovingReport& r, double dt) const {
   constexpr double slack = 2;
   return r.holds() && r.jump * dt <= slack * scene_.sisph.jump * scene_.water.spacing;
 }
 
 template <int D>
-void Solver<D>::shorten(double t, double dt, const MovingReport& r) {
+void LagrangianSph<D>::shorten(double t, double dt, const MovingReport& r) {
   constexpr double least = 1.0 / 4096;  // of what was asked for
   allowed_ = 0.5 * dt;
   ++shortened_;
-  if (allowed_ >= least * longest_step()) return;
-  const std::string last = " of steps shortened to " + text(dt) + " s (" + text(longest_step()) + " s were asked for) ";
+  if (allowed_ >= least * Base::longest_step()) return;
+  const std::string last =
+      " of steps shortened to " + text(dt) + " s (" + text(Base::longest_step()) + " s were asked for) ";
   const std::string when = "at t = " + text(t) + " s ";
   if (!r.solved)
     throw Diverged("the free surface did not settle: " + when + "the linear system" + last + "was left with " + text(r.residual) +
@@ -137,34 +143,20 @@ void Solver<D>::shorten(double t, double dt, const MovingReport& r) {
 
 // The order of the places that the particles are in now.
 template <int D>
-void Solver<D>::settle_order() {
+void LagrangianSph<D>::settle_order() {
   order_.sort(particles_);
   order_.measure_reach(particles_, particles_.real("h"), support_);
-  if (bed_) level_of_bed_ = particles_.real("bed");
-}
-
-// As far as the waves and the user go.
-template <int D>
-double Solver<D>::longest_step() const {
-  constexpr double rounding = 1 + 1e-9;  // a whole number of steps must not become one more
-  return scene_.time_step > 0 ? rounding * scene_.time_step : scene_.sisph.courant * scene_.water.spacing / std::max(celerity_, 1e-300);
+  if (bed_) Base::level_of_bed_ = particles_.real("bed");
 }
 
 // Velocity differences may move neighbours by sisph.jump of a spacing: more opens gaps.
 template <int D>
-double Solver<D>::moving_dt() const {
-  return std::min({longest_step(), allowed_, scene_.sisph.jump * scene_.water.spacing / std::max(moving_->jump(), 1e-300)});
+double LagrangianSph<D>::stable_dt() const {
+  const double most = scene_.sisph.jump * scene_.water.spacing;  // m
+  return std::min({Base::longest_step(), allowed_, most / std::max(moving_.jump(), 1e-300)});
 }
 
-// What had to be done beyond the recipe.
-template <int D>
-std::vector<std::string> Solver<D>::notes() const {
-  if (shortened_ == 0) return {};
-  return {"steps were tried again with half their length " + std::to_string(shortened_) +
-          " times: neighbours would have moved further than sisph.jump allows, or the surface did not settle"};
-}
-
-template class Solver<1>;
-template class Solver<2>;
+template class LagrangianSph<1>;
+template class LagrangianSph<2>;
 
 }  // namespace freshet::sisph

@@ -25,7 +25,7 @@ constexpr double turn = pi / 12;
 }  // namespace
 
 template <int D>
-void Solver<D>::build_refinement() {
+void ExplicitSph<D>::build_refinement() {
   const auto& split = scene_.split;
   const auto& merge = scene_.merge;
   if (!split && !merge) return;
@@ -43,13 +43,13 @@ void Solver<D>::build_refinement() {
 }
 
 template <int D>
-void Solver<D>::refine() {
+void ExplicitSph<D>::refine() {
   refinement_->adapt(particles_, [this] { return bind(); }, kind(), clusters_, neighbours_.view(), wall_view(), next_id_);
 }
 
-template void Solver<1>::build_refinement();
-template void Solver<2>::build_refinement();
-template void Solver<1>::refine();
-template void Solver<2>::refine();
+template void ExplicitSph<1>::build_refinement();
+template void ExplicitSph<2>::build_refinement();
+template void ExplicitSph<1>::refine();
+template void ExplicitSph<2>::refine();
 
 }  // namespace freshet::swe

@@ -74,30 +74,34 @@ double deepest_of(const FieldSet& fields) {
 }  // namespace
 
 template <int D>
-std::vector<Placed> relaxed_lattice(const Scene& scene, const Function& depth) {
+std::vector<Placed> relaxed_lattice(const Scene& scene) {
   constexpr int most_steps = 2000;
   constexpr double still = 1e-5;  // of the celerity
   if (!scene.boundaries.empty())
     throw SceneError("water.start = \"relaxed\" needs a basin without open boundaries; use \"cells\"");
   const std::optional<double> lake = lake_level(scene);
-  Solver<D> solver(still_water(scene, lake.has_value()));
-  const double level = lake.value_or(1.0), deepest = deepest_of(solver.fields()), celerity = std::sqrt(scene.gravity * deepest);
-  for (int n = 0; n < most_steps && (n < 10 || fastest(solver.fields(), D) > still * celerity); ++n) {
-    solver.step(0, solver.stable_dt());
-    settle(solver.fields(), D, scene.sph.eta, level, 1e-6 * deepest);
+  ExplicitSph<D> water(still_water(scene, lake.has_value()));
+  const FieldSet& f = water.fields();
+  const double level = lake.value_or(1.0), deepest = deepest_of(f);
+  const double celerity = std::sqrt(scene.gravity * deepest);
+  for (int n = 0; n < most_steps && (n < 10 || fastest(f, D) > still * celerity); ++n) {
+    water.step(0, water.stable_dt());
+    settle(f, D, scene.sph.eta, level, 1e-6 * deepest);
   }
-  const FieldSet& f = solver.fields();
+  const std::optional<BedSpline<D>> bed = bed_spline<D>(scene, scene.domain);
   const auto x = on_host(f.real("x")), y = on_host(f.real(D == 2 ? "y" : "x")), m = on_host(f.real("mass"));
   std::vector<Placed> placed;
   for (int i = 0; i < f.size(); ++i) {
-    const double here = D == 2 ? y(i) : 0.0, d = depth(x(i), here), area = m(i) / (lake ? d : 1.0);
+    const Point at{x(i), D == 2 ? y(i) : 0.0};
+    const double d = initial_depth<D>(scene, bed, at), area = m(i) / (lake ? d : 1.0);
     if (!(d > 0)) throw SceneError("water.start = \"relaxed\" needs water all over the basin; use \"cells\"");
-    placed.push_back({{x(i), here}, d, area, scene.sph.eta * (D == 2 ? std::sqrt(area) : area), velocity_at(scene, x(i), here)});
+    const double side = D == 2 ? std::sqrt(area) : area;
+    placed.push_back({at, d, area, scene.sph.eta * side, velocity_at(scene, at[0], at[1])});
   }
   return placed;
 }
 
-template std::vector<Placed> relaxed_lattice<1>(const Scene&, const Function&);
-template std::vector<Placed> relaxed_lattice<2>(const Scene&, const Function&);
+template std::vector<Placed> relaxed_lattice<1>(const Scene&);
+template std::vector<Placed> relaxed_lattice<2>(const Scene&);
 
 }  // namespace freshet::swe

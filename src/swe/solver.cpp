@@ -4,10 +4,9 @@
 
 #include "kernels/swe/density/depth_gradient.hpp"
 #include "kernels/swe/density/lattice.hpp"
-#include "kernels/swe/force/well_balanced.hpp"
 #include "kernels/swe/single.hpp"
+#include "kernels/swe/force/well_balanced.hpp"
 #include "src/errors.hpp"
-#include "src/scene/place.hpp"
 
 namespace freshet::swe {
 namespace {
@@ -41,47 +40,43 @@ double margin_of(const Scene& scene) {
 }  // namespace
 
 template <int D>
-Solver<D>::Solver(const Scene& scene)
-    : scene_(scene), kernel_(make_kernel<D>(scene.sph.kernel, scene.sph.eta, scene.sph.lattice_correction)),
-      support_(std::visit([](const auto& k) { return k.support; }, kernel_)), margin_(margin_of(scene)),
-      order_(D, scene.water.spacing, sorted_box(scene)),
-      stabilise_(under(scene.gravity, scene.sph.stabilisation)), gradient_(needs_velocity_gradient(stabilise_)),
-      depth_gradient_(needs_depth_gradient(stabilise_)), imposed_alpha_(lattice_sums<D>(scene.sph.eta, kernel_).alpha) {
-  build_bed();
-  build_friction();
+ExplicitSph<D>::ExplicitSph(const Scene& scene, const std::vector<Placed>& start)
+    : Base(scene, make_kernel<D>(scene.sph.kernel, scene.sph.eta, scene.sph.lattice_correction)),
+      margin_(margin_of(scene)), stabilise_(under(scene.gravity, scene.sph.stabilisation)),
+      gradient_(needs_velocity_gradient(stabilise_)), depth_gradient_(needs_depth_gradient(stabilise_)),
+      imposed_alpha_(lattice_sums<D>(scene.sph.eta, kernel_).alpha) {
+  build_ground();
   build_boundaries();
   build_walls();
   build_refinement();
-  place_particles();
+  place_particles(start);
   fill_boundaries();
   find_neighbours();
   if (scene_.sph.well_balanced)
     calibrate_density<D>(kernel_, clusters_, neighbours_.view(), wall_view(), bind(), particles_.real("calibration"));
   evaluate(0, 0);
   for (auto& boundary : boundaries_) {
-    boundary.observe(order_.rows(), bind(), kind(), bed());
+    boundary.observe(order_.rows(), bind(), kind(), bed_term());
     boundary.start(bind(), kind(), particles_.size());
   }
 }
 
 template <int D>
-Solver<D>::~Solver() = default;
-
-template <int D>
-void Solver<D>::step(double t, double dt) {
+void ExplicitSph<D>::step(double t, double dt) {
   kick_and_drift<D>(bind(), motion(), particles_.size(), dt);
   if (walls_) walls_->reflect(clusters_, bind().x, bind().v, bind().v_pred);
-  for (auto& boundary : boundaries_) boundary.exchange(particles_, [this] { return bind(); }, bed(), t + dt, dt, next_id_);
+  for (auto& boundary : boundaries_)
+    boundary.exchange(particles_, [this] { return bind(); }, bed_term(), t + dt, dt, next_id_);
   if (refinement_) refine();
   find_neighbours();
   if (refinement_) refinement_->relax(clusters_, neighbours_.view(), bind(), kind(), dt);
   evaluate(0.5 * dt, 0.5);
-  for (auto& boundary : boundaries_) boundary.observe(order_.rows(), bind(), kind(), bed());
+  for (auto& boundary : boundaries_) boundary.observe(order_.rows(), bind(), kind(), bed_term());
 }
 
 // Density, force and acceleration at the particles' positions, then the second half kick.
 template <int D>
-void Solver<D>::evaluate(double kick_dt, double ahead) {
+void ExplicitSph<D>::evaluate(double kick_dt, double ahead) {
   make_room();
   if (scene_.sph.mixed) copy_motion<D>(bind(), particles_.size());
   close_density(ahead);
@@ -89,19 +84,19 @@ void Solver<D>::evaluate(double kick_dt, double ahead) {
   if (scene_.sph.mixed) copy_state<D>(bind(), particles_.size());
   internal_force<D>(kernel_, clusters_, neighbours_.view(), wall_view(), bind(), stabilise_);
   if (scene_.sph.well_balanced && bed_)
-    add_balanced_bed<D>(kernel_, clusters_, neighbours_.view(), wall_view(), bind(), *bed(), scene_.gravity);
+    add_balanced_bed<D>(kernel_, clusters_, neighbours_.view(), wall_view(), bind(), *bed_term(), scene_.gravity);
   crossing_time_ = accelerate_and_kick<D>(bind(), motion(), particles_.size(), kick_dt);
 }
 
 template <int D>
-void Solver<D>::find_neighbours() {
+void ExplicitSph<D>::find_neighbours() {
   order_.sort(particles_);
   clusters_.cut(order_.rows());
   list_neighbours();
 }
 
 template <int D>
-void Solver<D>::list_neighbours() {
+void ExplicitSph<D>::list_neighbours() {
   const Particles<D> p = bind();
   order_.measure_reach(particles_, p.h, support_ * (1 + margin_));
   const ListRequest<D> water{p.x, p.h, order_.rows(), p.x, p.h, support_, margin_};
@@ -111,7 +106,7 @@ void Solver<D>::list_neighbours() {
 
 // Density; where an h outgrew the list's margin, the list is made again with the h found.
 template <int D>
-void Solver<D>::close_density(double ahead) {
+void ExplicitSph<D>::close_density(double ahead) {
   constexpr int most_lists = 20;  // each may grow h by the margin at most before it is made again
   DensityOptions options{scene_.gravity, scene_.sph.newton_tolerance, margin_,
                          {scene_.sph.h_floor, scene_.sph.h_cap}, gradient_, imposed_alpha_, ahead,
@@ -133,20 +128,20 @@ void Solver<D>::close_density(double ahead) {
 }
 
 template <int D>
-double Solver<D>::stable_dt() const {
+double ExplicitSph<D>::stable_dt() const {
   double crossing = crossing_time_;
   for (const auto& boundary : boundaries_) crossing = std::min(crossing, boundary.crossing_time());
   return scene_.cfl * crossing;
 }
 
 template <int D>
-MotionOptions<D> Solver<D>::motion() const {
+MotionOptions<D> ExplicitSph<D>::motion() const {
   // In a well-balanced run t holds the bed's part already.
-  return {scene_.gravity, {scene_.sph.h_floor, scene_.sph.h_cap}, scene_.sph.well_balanced ? std::nullopt : bed(), friction_,
+  return {scene_.gravity, {scene_.sph.h_floor, scene_.sph.h_cap}, scene_.sph.well_balanced ? std::nullopt : bed_term(), friction_,
           friction_ ? particles_.real("drag") : Field<double>(), {kind()}, walls_.has_value()};
 }
 
-template class Solver<1>;
-template class Solver<2>;
+template class ExplicitSph<1>;
+template class ExplicitSph<2>;
 
 }  // namespace freshet::swe

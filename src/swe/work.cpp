@@ -5,19 +5,19 @@
 namespace freshet::swe {
 
 template <int D>
-Cost Solver<D>::motion_cost() const {
+Cost ExplicitSph<D>::motion_cost() const {
   Cost cost = accelerate_cost;
   const auto add = [&](const Cost& part) {
     cost.particle_flops += part.particle_flops;
     cost.fields += part.fields;
   };
-  if (bed_ && !scene_.sph.well_balanced) add(bed_->variational ? bed_cost : bed_slope_cost);
+  if (bed_ && !scene_.sph.well_balanced) add(variational_ ? bed_cost : bed_slope_cost);
   if (friction_) add(friction_cost);
   return cost;
 }
 
 template <int D>
-std::map<std::string, Work> Solver<D>::work() const {
+std::map<std::string, Work> ExplicitSph<D>::work() const {
   const double n = particles_.size();
   const Particles<D> p = bind();
   const double listed = neighbours_.mean_length(clusters_) * clusters_.size() * lanes;
@@ -36,9 +36,9 @@ std::map<std::string, Work> Solver<D>::work() const {
           {"swe::accelerate", work_of(motion_cost(), n)}};
 }
 
-template Cost Solver<1>::motion_cost() const;
-template Cost Solver<2>::motion_cost() const;
-template std::map<std::string, Work> Solver<1>::work() const;
-template std::map<std::string, Work> Solver<2>::work() const;
+template Cost ExplicitSph<1>::motion_cost() const;
+template Cost ExplicitSph<2>::motion_cost() const;
+template std::map<std::string, Work> ExplicitSph<1>::work() const;
+template std::map<std::string, Work> ExplicitSph<2>::work() const;
 
 }  // namespace freshet::swe

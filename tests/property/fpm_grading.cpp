@@ -145,5 +145,5 @@ TEST_CASE("A column that collapses through a graded cloud keeps its area") {
 TEST_CASE("A grading finer than the spacing is an error") {
   Scene scene = unit_square(0.05);
   scene.fpm->grading = [](double, double) { return 0.5; };
-  CHECK_THROWS_AS(fpm::Solver(scene), SceneError);
+  CHECK_THROWS_AS(fpm::FinitePointset(scene), SceneError);
 }

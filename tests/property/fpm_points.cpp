@@ -18,7 +18,7 @@ using Flow = std::function<Point(const Point&)>;  // m/s at m
 // A set of points that rides on a flow.
 struct Ride {
   FlowPoints set;
-  fpm::Points points;
+  fpm::PointKeeper points;
   fpm::PointReport last;
   fpm::PointCount count;
   int next_id, failed = 0, most_surface = 0, fewest = 1 << 30, most = 0;
@@ -27,7 +27,7 @@ struct Ride {
        fpm::PointFields carried = {})
       : set(start, dx, walls), points({dx, 3.2 * dx}, set.tank, period, carried), next_id(static_cast<int>(start.size())) {
     set.period = period;
-    fpm::Points::make_fields(set.fields);
+    fpm::PointMarks().declare(FieldList::making(set.fields));
     Kokkos::deep_copy(set.fields.integer("side"), -1);
     for (const auto& v : carried.velocities)
       for (const auto& name : v) set.fields.real(name, "m/s", Carry::state);
@@ -111,7 +111,7 @@ TEST_CASE("fpm points: the rule of areas bounds voids, too") {
   Ride ride(square(), {}, {{0, 0}, {1, 1}});
   fpm::PointRule rule{dx, 3.2 * dx};
   rule.voronoi.area = 0.76;
-  ride.points = fpm::Points(rule, ride.set.tank, ride.set.period, {});
+  ride.points = fpm::PointKeeper(rule, ride.set.tank, ride.set.period, {});
   for (int k = 0; k < 200; ++k) ride.step(eddies, 0.5 * dx);
   INFO(ride.story());
   CHECK(ride.most_surface == 0);

@@ -14,7 +14,7 @@ const Words small{"water.spacing=0.0057", "time.end=0.18", "output.every=0.18"};
 const Words every_feature{"water.spacing=0.004", "fpm.grading=1 + 8*x", "fluid.viscosity=1e-3", "fpm.diffusion=implicit", "time.end=0.18",
                           "output.every=0.18"};
 
-void advance(fpm::Solver& solver, int steps) {
+void advance(fpm::FinitePointset& solver, int steps) {
   for (int k = 0; k < steps; ++k) solver.step(0, solver.stable_dt());
 }
 
@@ -25,7 +25,7 @@ void copy_saved(const Named& from, const Named& to, int n) {
 }
 
 // A solver that knows of the other only what a checkpoint holds.
-void take_up(const fpm::Solver& from, fpm::Solver& to) {
+void take_up(const fpm::FinitePointset& from, fpm::FinitePointset& to) {
   const int n = from.fields().size();
   to.fields().resize(n);
   copy_saved(from.fields().reals(), to.fields().reals(), n);

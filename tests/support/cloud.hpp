@@ -70,11 +70,6 @@ inline Box wide(double spacing) { return {-2000 * spacing, 2000 * spacing, -2000
 FieldSet point_fields(int dimension, const std::vector<Point>& points, std::vector<int> ids = {});
 
 template <int D>
-VecField<double, D> vector_field(const FieldSet& f, const char* x, const char* y) {
-  if constexpr (D == 1)
-    return {f.real(x)};
-  else
-    return {f.real(x), f.real(y)};
 }
 
 // A particle as a test describes it; rho is the first guess of the depth, kh = rho0 h0^D the constant of rho h^D.
@@ -140,8 +135,7 @@ class Cloud {
 
   Cloud(const std::vector<Grain>& grains, double spacing)
       : fields(static_cast<int>(grains.size())), order(D, spacing, wide(spacing)), spacing_(spacing) {
-    make_fields();
-    const swe::Particles<D> p = bind();
+    const swe::Particles<D> p = declare(FieldList::making(fields));
     for (std::size_t k = 0; k < grains.size(); ++k) set(p, static_cast<int>(k), grains[k]);
   }
 
@@ -149,25 +143,7 @@ class Cloud {
     walls.emplace(lines, WallOptions{kind, spacing_, 1.5 * support() * 1.2 * spacing_, true}, inside, support());
   }
 
-  swe::Particles<D> bind() const {
-    swe::Particles<D> p;
-    p.x = vector_field<D>(fields, "x", "y");
-    p.v = vector_field<D>(fields, "u", "v");
-    p.v_pred = vector_field<D>(fields, "u_pred", "v_pred");
-    p.a = vector_field<D>(fields, "ax", "ay");
-    p.t = vector_field<D>(fields, "tx", "ty");
-    p.m = fields.real("mass"), p.h0 = fields.real("h0"), p.kh = fields.real("kh"), p.rho = fields.real("depth");
-    p.rate = fields.real("depth_rate"), p.growth = fields.real("depth_growth"), p.h = fields.real("h"), p.inv_h = fields.real("inv_h");
-    p.pressure = fields.real("pressure"), p.celerity = fields.real("celerity"), p.weight = fields.real("weight");
-    p.signal = fields.real("signal"), p.id = fields.integer("id");
-    p.depth_slope = vector_field<D>(fields, "slope_x", "slope_y");
-    if constexpr (D == 1)
-      p.strain = {fields.real("strain_xx")};
-    else
-      p.strain = {fields.real("strain_xx"), fields.real("strain_xy"), fields.real("strain_yy")};
-    p.single = single;
-    return p;
-  }
+  swe::Particles<D> bind() const { return declare(FieldList::binding(fields)); }
 
   WallView<D> wall_view() const { return walls ? walls->view() : WallView<D>{}; }
 
@@ -215,13 +191,13 @@ class Cloud {
   double of(int id, const char* name) const { return by_id(name)[static_cast<std::size_t>(id)]; }
 
  private:
-  void make_fields() {
-    for (const char* name : {"x", "y", "u", "v", "u_pred", "v_pred", "mass", "h0", "kh", "depth", "h"})
-      fields.real(name, "1", Carry::sort);
-    for (const char* name : {"ax", "ay", "tx", "ty", "depth_rate", "depth_growth", "inv_h", "pressure", "celerity", "weight", "signal",
-                             "strain_xx", "strain_xy", "strain_yy", "slope_x", "slope_y"})
-      fields.real(name, "1", Carry::no);
-    fields.integer("id", "1", Carry::sort);
+  swe::Particles<D> declare(const FieldList& list) const {
+    swe::Particles<D> p;
+    p.declare(list);
+    p.declare_strain(list, false);
+    p.declare_depth_slope(list);
+    p.single = single;
+    return p;
   }
 
   static void set(const swe::Particles<D>& p, int i, const Grain& g) {

@@ -48,7 +48,7 @@ class FlowRun {
   }
 
   Scene scene;
-  fpm::Solver solver;
+  fpm::FinitePointset solver;
   Clock clock;
   int most_iterations = 0;
 

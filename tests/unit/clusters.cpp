@@ -37,7 +37,7 @@ struct Listed {
     clusters.cut(order.rows());
     const auto length = fields.real("h");
     order.measure_reach(fields, length, 2 * (1 + margin));
-    const auto x = test::vector_field<D>(fields, "x", "y");
+    const auto x = fields.vector<D>("x", "y");
     list.build<D>(clusters, {x, length, order.rows(), x, length, 2.0, margin});
     points.clear(), h.clear();
     for (int i = 0; i < fields.size(); ++i) {
@@ -222,8 +222,8 @@ TEST_CASE("clusters: sources of another set, as for walls") {
   Listed<2> sources(test::random_points(2, 700, 2.0, 13), [](const Point&) { return 0.0; });
   Listed<2> targets(test::random_points(2, 900, 1.5, 14), [](const Point& p) { return p[1] > 0 ? 3 * dx : dx; });
   NeighbourList near(4);
-  near.build<2>(targets.clusters, {test::vector_field<2>(targets.fields, "x", "y"), targets.fields.real("h"),
-                                   sources.order.rows(), test::vector_field<2>(sources.fields, "x", "y"),
+  near.build<2>(targets.clusters, {targets.fields.vector<2>("x", "y"), targets.fields.real("h"),
+                                   sources.order.rows(), sources.fields.vector<2>("x", "y"),
                                    sources.fields.real("h"), 1.0, margin});
   long wrong = 0;
   for (int c = 0; c < targets.clusters.size(); ++c) {

@@ -25,7 +25,7 @@ std::vector<std::vector<double>> results(int later, const swe::AnyStabilisation&
   cloud.settle(options);
   cloud.force(stabilise);
   std::vector<std::vector<double>> all;
-  for (const char* name : {"depth", "h", "depth_rate", "strain_xx", "pressure", "slope_x", "tx", "signal"}) all.push_back(cloud.by_id(name));
+  for (const char* name : {"depth", "h", "depth_rate", "strain_xx", "pressure", "depth_slope_x", "tx", "signal"}) all.push_back(cloud.by_id(name));
   return all;
 }
 

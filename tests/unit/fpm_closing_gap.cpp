@@ -48,7 +48,7 @@ struct Look {
       const Point p = set.at(i);
       if (p[0] < 2.2 * dx || p[0] > 11.8 * dx) continue;
       facing += (p[1] == 0 || p[1] == gap) && surface(i) == 1;
-      inserted += voronoi.missing()(i).kind != fpm::Missing::none;
+      inserted += voronoi.missing()(i).kind != fpm::Gap::none;
       area += fpm::wet_area(fpm::cell_of(cloud, i, 1.3 * dx), cloud, i, radii);
     }
   }

@@ -26,7 +26,7 @@ struct Flow {
     for (int i = 0; i < cloud.fields.size(); ++i) p.h(i) = p.h0(i), p.celerity(i) = 1;
   }
   void lay_bed(const Level& level, double half, double spacing, bool variational) {
-    options.bed = swe::Bed<D>{BedSpline<D>(level, {{-half, -half}, {half, half}, spacing, 0}), variational,
+    options.bed = swe::BedTerm<D>{BedSpline<D>(level, {{-half, -half}, {half, half}, spacing, 0}), variational,
                               cloud.fields.real("bed", "m", Carry::no)};
   }
   void roughen(double manning) {

@@ -26,10 +26,10 @@ struct Paired {
     const Field<double> h = fields.real("h"), x = fields.real("x");
     for (int i = 0; i < fields.size(); ++i) h(i) = 1.3 * dx * (1 + 0.25 * x(i));
     order.measure_reach(fields, h, factor);
-    pairs.build<D>(fields.size(), {order.rows(), test::vector_field<D>(fields, "x", "y"), h, factor});
+    pairs.build<D>(fields.size(), {order.rows(), fields.vector<D>("x", "y"), h, factor});
   }
   double distance(int i, int j) const {
-    const auto x = test::vector_field<D>(fields, "x", "y");
+    const auto x = fields.vector<D>("x", "y");
     const Vec<double, D> d = at(x, i) - at(x, j);
     return std::sqrt(dot(d, d));
   }

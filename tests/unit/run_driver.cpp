@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <utility>
 
 #include "src/errors.hpp"
 #include "src/io/files.hpp"
 #include "src/io/h5part.hpp"
+#include "src/io/hdf5.hpp"
 #include "src/reference/exact.hpp"
 #include "src/run/driver.hpp"
 #include "tests/support/fake_method.hpp"
@@ -52,6 +55,31 @@ TEST_CASE("a run writes its outputs exactly on time") {
   REQUIRE(summary.gauges.size() == 1);
   CHECK(summary.gauges[0].peak >= 1);
   CHECK_FALSE(find<ErrorRecorder>(driver.observers()));
+}
+
+// The fake method shuffles its particles: a field in another order than the ids would show.
+TEST_CASE("a run writes the fields that its scene asks for, each value with its particle") {
+  const test::Scratch scratch;
+  Scene scene = test::fake_scene();
+  scene.output.fields = {{"mass", "depth", "h"}};
+  test::FakeMethod method(scene);
+  Driver driver(scene, method, {scratch.path()});
+  driver.begin();
+  REQUIRE(driver.run());
+  const int last = list_particle_steps(scratch / "particles.h5part").back().step;
+  const auto file = hdf5::File::look(scratch / "particles.h5part");
+  const auto group = file.open("Step#" + std::to_string(last));
+  CHECK(group.names() == std::vector<std::string>{"depth", "h", "id", "mass", "x", "y"});
+  const FieldSet& fields = std::as_const(method).fields();
+  const auto id = group.integers("id");
+  REQUIRE(id.size() == static_cast<std::size_t>(fields.size()));
+  for (const char* name : {"depth", "mass", "h"}) {
+    std::map<int, float> held;
+    const auto written = group.reals(name);
+    for (std::size_t k = 0; k < id.size(); ++k) held[id[k]] = static_cast<float>(written[k]);
+    for (int i = 0; i < fields.size(); ++i)
+      REQUIRE(held.at(fields.integer("id")(i)) == static_cast<float>(fields.real(name)(i)));
+  }
 }
 
 TEST_CASE("a scene without an output interval writes its first and last state") {

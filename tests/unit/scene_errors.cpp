@@ -8,6 +8,7 @@ using namespace freshet;
 using freshet::test::Directory;
 using freshet::test::failure;
 using freshet::test::pond;
+using freshet::test::read_text;
 
 namespace {
 
@@ -78,6 +79,22 @@ TEST_CASE("A wrong type is an error, quotes around a number are pointed out") {
               "  every = \"0.5\"\n"
               "          ^\n"
               "  help: remove the quotes around the number");
+}
+
+TEST_CASE("output.fields knows the fields of the scene's method and dimension") {
+  const Scene scene = read_text(pond("[output]\nfields = [\"depth\", \"u\", \"h\", \"mass\", \"bed\"]\n"));
+  CHECK(scene.output.fields == std::vector<std::string>{"depth", "u", "h", "mass", "bed"});
+  CHECK(read_text(scene.text).output.fields == scene.output.fields);
+  CHECK_FALSE(read_text(pond()).output.fields);
+  check_error(pond("[output]\nfields = [\"depth\", \"mas\"]\n"),
+              "scene.toml:9:20: error: 'output.fields' holds 'mas'; wanted: 'z', 'depth', 'u', 'v', 'mass', 'h', "
+              "'bed' or 'size'\n"
+              "  fields = [\"depth\", \"mas\"]\n"
+              "                     ^\n"
+              "  help: did you mean 'mass'?");
+  const std::string channel = "[domain]\nbox = [0, 10]\n[water]\ndepth = 1\nspacing = 0.5\n[time]\nend = 10\n";
+  CHECK_THAT(failure(channel + "[output]\nfields = [\"v\"]\n").text,
+             Catch::Contains("'output.fields' holds 'v'; wanted: 'z', 'depth', 'u', 'mass', 'h', 'bed' or 'size'"));
 }
 
 TEST_CASE("A number out of its range is an error") {

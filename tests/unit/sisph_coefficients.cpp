@@ -24,7 +24,7 @@ struct Basin {
   AnyKernel<2> kernel;
   sisph::Geometry<2> g;
   sisph::ClosureReport closure;
-  sisph::Water<2> water;
+  sisph::Layer<2> water;
   VecField<double, 2> before;
 
   explicit Basin(const Setting& setting) : kernel(make_kernel<2>(setting.kernel, smoothing, false)) {
@@ -43,7 +43,7 @@ struct Basin {
     order.sort(fields);
     const double support = std::visit([](const auto& k) { return k.support; }, kernel);
     order.measure_reach(fields, fields.real("h"), support);
-    sisph::GeometryRequest<2> request{order.rows(), test::vector_field<2>(fields, "x", "y"), fields.real("h"), kind, dx, dx * dx};
+    sisph::GeometryRequest<2> request{order.rows(), fields.vector<2>("x", "y"), fields.real("h"), kind, dx, dx * dx};
     const double end = cells * dx;
     if (setting.walls) request.walls = sisph::MirrorWalls<2>({{{0, 0}, {end, 0}, {end, end}, {0, end}, {0, 0}}}, 0);
     g = sisph::measure_geometry<2>(fields.size(), kernel, request);

@@ -36,7 +36,7 @@ struct Block {
     order.sort(fields);
     order.measure_reach(fields, fields.real("h"), 2.0);
     g = sisph::measure_geometry<D>(fields.size(), make_kernel<D>(kernel::Cubic{}, smoothing, false),
-                                   {order.rows(), test::vector_field<D>(fields, "x", "y"), fields.real("h"),
+                                   {order.rows(), fields.vector<D>("x", "y"), fields.real("h"),
                                     fields.integer("kind"), dx, D == 2 ? dx * dx : dx});
   }
   Field<double> scratch() const { return Field<double>("scratch", static_cast<std::size_t>(fields.size()) + lanes); }

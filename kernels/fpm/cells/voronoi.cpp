@@ -15,7 +15,7 @@ struct Searcher {
     Vec<double, 2> p;
     const PointCell& c;
     double dx;  // m
-    Missing best;
+    Gap best;
 
     KOKKOS_FORCEINLINE_FUNCTION void offer(int kind, double size, const Vec<double, 2>& from_p, int side = -1) {
       if (size <= 1 || kind < best.kind || (kind == best.kind && size <= best.size)) return;
@@ -37,10 +37,10 @@ struct Searcher {
     const Vec<double, 2> da = l.to(a), db = l.to(b);
     if (rule.area > 0) {
       const double area = 0.5 * (da.x * db.y - da.y * db.x);
-      l.offer(Missing::in_bulk, area / (rule.area * l.dx * l.dx), (1.0 / 3) * (da + db));
+      l.offer(Gap::in_bulk, area / (rule.area * l.dx * l.dx), (1.0 / 3) * (da + db));
     } else if (dot(da, db) > 0 && dot(da, da - db) > 0 && dot(db, db - da) > 0) {
       // Only where it holds its own circumcentre is that the middle of a hole; of others it may lie outside the water.
-      l.offer(Missing::in_bulk, root(r2) / (rule.hole * l.dx), l.corner(k));
+      l.offer(Gap::in_bulk, root(r2) / (rule.hole * l.dx), l.corner(k));
     }
   }
 
@@ -57,13 +57,13 @@ struct Searcher {
     const double along = foot_on(s, x).along;
     if (along < 0 || along > s.length) return;
     const bool both = stands_on(s, l.p) && stands_on(s, l.p + l.to(number));
-    l.offer(Missing::at_wall, root(r2) / ((both ? 0.5 * rule.edge : rule.hole) * l.dx), l.corner(k), side);
+    l.offer(Gap::at_wall, root(r2) / ((both ? 0.5 * rule.edge : rule.hole) * l.dx), l.corner(k), side);
   }
 
   KOKKOS_INLINE_FUNCTION void wall_corner(Look& l, int a, int b, double r2, int k) const {
     const int first = cloud.tank.sides(a).after == b ? a : b;
     if (cloud.tank.sides(first).after != (first == a ? b : a) || !cloud.tank.sides(first).corner_b) return;
-    l.offer(Missing::at_corner, root(r2) / (0.5 * rule.edge * l.dx), l.corner(k), first);
+    l.offer(Gap::at_corner, root(r2) / (0.5 * rule.edge * l.dx), l.corner(k), first);
   }
 
   // The Delaunay edge to a neighbour, one of whose empty circles is as large as the surface's.
@@ -77,10 +77,10 @@ struct Searcher {
     if (l.c.around.r2[number] >= 4 * radii.open2 || crosses_air(l.c, cloud, l.i, number)) return;
     const Vec<double, 2> middle = 0.5 * l.to(number);
     const NearestPiece under = cloud.tank.nearest(l.p + middle, 1e-3 * l.dx);
-    if (under.piece < 0) l.offer(Missing::on_surface, root(l.c.around.r2[number]) / longest, middle);
+    if (under.piece < 0) l.offer(Gap::on_surface, root(l.c.around.r2[number]) / longest, middle);
   }
 
-  KOKKOS_INLINE_FUNCTION Missing search(int i, const PointCell& c) const {
+  KOKKOS_INLINE_FUNCTION Gap search(int i, const PointCell& c) const {
     Look l{i, at(cloud.near.x, i), c, cloud.spacing_at(i), {}};
     const Radii radii(rule, l.dx);
     for (int k = 0; k < c.cell.size; ++k) {
@@ -117,7 +117,7 @@ VoronoiReport Voronoi::find(const Cloud& cloud, int n, const Field<int>& surface
         failures += !c.complete;
         if (flags_only) return;
         missing(i) = searcher.search(i, c);
-        holes += missing(i).kind != Missing::none;
+        holes += missing(i).kind != Gap::none;
       }, r.surface, r.missing, r.failed);
   if (seen.x.extent(0) > 0) launch("fpm::remember_air", Range(0, n), KOKKOS_LAMBDA(int i) { put(seen, i, at(open, i)); });
   return r;

@@ -161,8 +161,8 @@ KOKKOS_INLINE_FUNCTION void for_each_triangle(const PointCell& c, double half, c
 }
 
 // Where a point is missing, as one of the points around it found. Of several in reach of each other the greatest rank counts.
-struct Missing {
-  enum Kind : int { none = 0, in_bulk = 1, on_surface = 2, at_wall = 3, at_corner = 4 };
+struct Gap {
+  enum Site : int { none = 0, in_bulk = 1, on_surface = 2, at_wall = 3, at_corner = 4 };
   int kind = none;
   int side = -1;        // of walls; of corners the side that ends there
   Vec<double, 2> x;     // m
@@ -182,12 +182,12 @@ class Voronoi {
   // Writes surface (1 on the free surface, else 0) and cloud.open for all n points, and where points are missing unless flags_only.
   VoronoiReport find(const Cloud& cloud, int n, const Field<int>& surface, bool flags_only = false);
 
-  const Kokkos::View<Missing*, Memory>& missing() const { return missing_; }
+  const Kokkos::View<Gap*, Memory>& missing() const { return missing_; }
   const VoronoiRule& rule() const { return rule_; }
 
  private:
   VoronoiRule rule_;
-  Kokkos::View<Missing*, Memory> missing_;
+  Kokkos::View<Gap*, Memory> missing_;
   VecField<double, 2> open_;  // 1, found in this look
 };
 

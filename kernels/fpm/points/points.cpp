@@ -42,21 +42,21 @@ struct Pairing {
 // Of several places where a point is missing, near each other, the one of the greatest kind, size and smallest id counts.
 struct Choice {
   Cloud cloud;
-  Kokkos::View<Missing*, Memory> missing;
+  Kokkos::View<Gap*, Memory> missing;
   Field<int> fate;
   double apart, reach;  // x spacing; reach: how far a place may be from the point that found it
 
   KOKKOS_INLINE_FUNCTION bool first(int i, int j) const {
-    const Missing &a = missing(i), &b = missing(j);
+    const Gap &a = missing(i), &b = missing(j);
     if (a.kind != b.kind) return a.kind > b.kind;
     return a.size > b.size || (a.size == b.size && cloud.id(i) < cloud.id(j));
   }
   KOKKOS_INLINE_FUNCTION bool accepted(int i) const {
-    if (missing(i).kind == Missing::none || fate(i) != keep) return false;
+    if (missing(i).kind == Gap::none || fate(i) != keep) return false;
     bool best = true;
     const double close = apart * cloud.spacing_at(i);
     cloud.near.for_each(missing(i).x, reach * cloud.spacing_at(i) + close, [&](int j, const Vec<double, 2>&, double) {
-      if (j == i || missing(j).kind == Missing::none) return;
+      if (j == i || missing(j).kind == Gap::none) return;
       const Vec<double, 2> d = cloud.near.period.shortest(missing(j).x - missing(i).x);
       if (dot(d, d) < close * close && first(j, i)) best = false;
     });
@@ -66,22 +66,15 @@ struct Choice {
 
 }  // namespace
 
-Points::Points(const PointRule& rule, const Tank& tank, const Period& period, PointFields carried)
+PointKeeper::PointKeeper(const PointRule& rule, const Tank& tank, const Period& period, PointFields carried)
     : rule_(rule), tank_(tank), period_(period), carried_(std::move(carried)), voronoi_(rule.voronoi) {}
 
-void Points::make_fields(FieldSet& points) {
-  points.integer("kind", "1", Carry::state);
-  points.integer("side", "1", Carry::state);
-  points.integer("surface", "1", Carry::state);
-  for (const char* name : {"open_x", "open_y"}) points.real(name, "1", Carry::state);
-}
-
-Cloud Points::cloud(const FieldSet& points, const RowOrder& order) const {
+Cloud PointKeeper::cloud(const FieldSet& points, const RowOrder& order) const {
   return {{order.rows(), {points.real("x"), points.real("y")}, period_}, points.integer("id"), points.integer("kind"), tank_.view(), rule_.spacing,
           points.has("dx") ? points.real("dx") : Field<double>(), {points.real("open_x"), points.real("open_y")}};
 }
 
-int Points::hold_to_walls(FieldSet& points) {
+int PointKeeper::hold_to_walls(FieldSet& points) {
   const VecField<double, 2> x{points.real("x"), points.real("y")};
   const Field<int> kind = points.integer("kind"), side = points.integer("side"), surface = points.integer("surface");
   const TankView tank = tank_.view();
@@ -98,14 +91,14 @@ int Points::hold_to_walls(FieldSet& points) {
   return landed;
 }
 
-void Points::choose_partners(const Cloud& cloud, const Field<int>& surface, const Field<int>& side, int n) {
+void PointKeeper::choose_partners(const Cloud& cloud, const Field<int>& surface, const Field<int>& side, int n) {
   reserve(partner_, "fpm.partner", n);
   const Field<int> partner = partner_;
   const Pairing pairing{cloud, side, surface, rule_.merge * rule_.support / rule_.spacing, rule_.land};
   launch("fpm::partners", Range(0, n), KOKKOS_LAMBDA(int i) { partner(i) = pairing.closest(i).partner; });
 }
 
-PointCount Points::decide(const Cloud& cloud, const Field<int>& surface, const Field<int>& side, int n) {
+PointCount PointKeeper::decide(const Cloud& cloud, const Field<int>& surface, const Field<int>& side, int n) {
   reserve(fate_, "fpm.fate", n);
   const Field<int> partner = partner_, fate = fate_;
   const Pairing pairing{cloud, side, surface, rule_.merge * rule_.support / rule_.spacing, rule_.land};
@@ -127,7 +120,7 @@ PointCount Points::decide(const Cloud& cloud, const Field<int>& surface, const F
   return count;
 }
 
-int Points::list_places(const Cloud& cloud, const Field<int>& side, int n, int merged) {
+int PointKeeper::list_places(const Cloud& cloud, const Field<int>& side, int n, int merged) {
   const Choice choice{cloud, voronoi_.missing(), fate_, rule_.apart, 1.5 * rule_.voronoi.surface};
   reserve(owner_, "fpm.owner", merged + n);
   for (auto* view : {&where_.x, &where_.y, &place_h_, &place_slack_}) reserve(*view, "fpm.where", merged + n);
@@ -152,14 +145,14 @@ int Points::list_places(const Cloud& cloud, const Field<int>& side, int n, int m
   const auto missing = voronoi_.missing();
   Kokkos::parallel_scan("fpm::new_places", Range(0, n), KOKKOS_LAMBDA(int i, int& k, bool last) {
         if (!choice.accepted(i)) return;
-        const Missing& m = missing(i);
+        const Gap& m = missing(i);
         if (last) {
           owner(merged + k) = i;
           put(where, merged + k, m.x);
-          place_kind(merged + k) = m.kind == Missing::at_wall ? on_wall : m.kind == Missing::at_corner ? in_corner : in_fluid;
+          place_kind(merged + k) = m.kind == Gap::at_wall ? on_wall : m.kind == Gap::at_corner ? in_corner : in_fluid;
           place_side(merged + k) = m.side;
           place_h(merged + k) = support * cloud.spacing_at(i);
-          slack(merged + k) = m.kind == Missing::in_bulk ? beyond : 0.0;
+          slack(merged + k) = m.kind == Gap::in_bulk ? beyond : 0.0;
         }
         ++k;
       }, count);
@@ -167,7 +160,7 @@ int Points::list_places(const Cloud& cloud, const Field<int>& side, int n, int m
 }
 
 // Copies of their owners in every field, then what the fit says in the fields that are carried.
-void Points::fill_places(FieldSet& points, int merged, int count) {
+void PointKeeper::fill_places(FieldSet& points, int merged, int count) {
   const int n = points.size(), places = merged + count;
   points.append_copies(Kokkos::subview(owner_, std::make_pair(merged, places)), count);
   reserve(value_, "fpm.value", places);
@@ -183,7 +176,7 @@ void Points::fill_places(FieldSet& points, int merged, int count) {
   }
 }
 
-void Points::settle_places(FieldSet& points, int n, int merged, int& next_id) {
+void PointKeeper::settle_places(FieldSet& points, int n, int merged, int& next_id) {
   const int places = merged + points.size() - n, first_id = take_ids(next_id, places - merged);
   const VecField<double, 2> x{points.real("x"), points.real("y")}, where = where_, open{points.real("open_x"), points.real("open_y")};
   const Field<double> slack = place_slack_;
@@ -202,7 +195,7 @@ void Points::settle_places(FieldSet& points, int n, int merged, int& next_id) {
       });
 }
 
-void Points::hold_velocities(FieldSet& points) {
+void PointKeeper::hold_velocities(FieldSet& points) {
   const Field<int> kind = points.integer("kind"), side = points.integer("side");
   const TankView tank = tank_.view();
   const bool slip = rule_.slip;
@@ -216,12 +209,12 @@ void Points::hold_velocities(FieldSet& points) {
   }
 }
 
-PointReport Points::flag(FieldSet& points, const RowOrder& order) {
+PointReport PointKeeper::flag(FieldSet& points, const RowOrder& order) {
   const VoronoiReport r = voronoi_.find(cloud(points, order), points.size(), points.integer("surface"), true);
   return {r.surface, r.failed, {}};
 }
 
-PointReport Points::manage(FieldSet& points, RowOrder& order, int& next_id) {
+PointReport PointKeeper::manage(FieldSet& points, RowOrder& order, int& next_id) {
   const int landed = hold_to_walls(points);
   order.sort(points);
   const int n = points.size();

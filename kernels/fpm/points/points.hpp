@@ -39,13 +39,23 @@ struct PointReport {
   PointCount step;
 };
 
-// Fields of the set: x, y [m], id, dx [m] where the spacing varies, and those made here: kind (PointKind), side (of the tank,
-// -1 in the fluid), surface (0, 1), open_x, open_y (Cloud::open).
-class Points {
- public:
-  Points(const PointRule& rule, const Tank& tank, const Period& period, PointFields carried);
+// What is made here of each point.
+struct PointMarks {
+  Field<int> kind, side, surface;  // PointKind; of the tank, -1 in the fluid; 1 on the free surface
+  VecField<double, 2> open;        // Cloud::open
 
-  static void make_fields(FieldSet& points);
+  void declare(const FieldList& field) {
+    field(kind, "kind", "1", Carry::state);
+    field(side, "side", "1", Carry::state);
+    field(surface, "surface", "1", Carry::state);
+    field(open, "open_x", "open_y", "1", Carry::state);
+  }
+};
+
+// Fields of the set: x, y [m], id, dx [m] where the spacing varies, and PointMarks.
+class PointKeeper {
+ public:
+  PointKeeper(const PointRule& rule, const Tank& tank, const Period& period, PointFields carried);
 
   // After points moved: everything above. Sorts the points; new ones take the ids from next_id on.
   PointReport manage(FieldSet& points, RowOrder& order, int& next_id);

@@ -57,7 +57,7 @@ KOKKOS_INLINE_FUNCTION Vec<Lane, 2> viscous_laplacian(const StencilView<2>& sten
 
 // v* at the points of one cluster.
 template <bool Viscous>
-struct Predict {
+struct Predictor {
   StencilView<2> stencils;
   FlowRule rule;
   Flow flow;
@@ -144,9 +144,9 @@ void Projection::guess_pressure(const Flow& flow) {
 void Projection::predict(const Flow& flow, const Backward& time) {
   const Range clusters(0, stencils_.view().around.clusters.size());
   if (rule_.viscosity > 0 && !rule_.implicit)
-    launch("fpm::predict", clusters, Predict<true>{stencils_.view(), rule_, flow, time});
+    launch("fpm::predict", clusters, Predictor<true>{stencils_.view(), rule_, flow, time});
   else
-    launch("fpm::predict", clusters, Predict<false>{stencils_.view(), rule_, flow, time});
+    launch("fpm::predict", clusters, Predictor<false>{stencils_.view(), rule_, flow, time});
 }
 
 linear::BiCgStabReport Projection::diffuse(const Flow& flow, const Backward& time) {

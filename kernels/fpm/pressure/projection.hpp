@@ -27,16 +27,31 @@ struct FlowRule {
 
 // A flow's fields; scratch: those below the line.
 struct Flow {
-  VecField<double, 2> x, v, v_old;  // m, m/s
-  Field<double> p;                  // Pa
-  Field<double> phi;                // Pa, its last change: the first guess of the next
-  Field<int> kind, side, surface;   // PointKind; of the tank; 1 on the free surface
+  VecField<double, 2> x, v, v_old;
+  Field<double> p;
+  Field<double> phi;               // the last change of p: the first guess of the next
+  Field<int> kind, side, surface;  // PointMarks
   // ----
   VecField<double, 2> v_star, normal;
   Field<double> q, source, flux, value;
   Field<int> row;
   int points = 0;
   double expansion = 0;  // 1/s, divergence that v is given; 0 but where area is to be given back
+
+  void declare(const FieldList& field) {
+    field(x, "x", "y", "m", Carry::state);
+    field(v, "u", "v", "m/s", Carry::state);
+    field(v_old, "u_old", "v_old", "m/s", Carry::state);
+    field(p, "p", "Pa", Carry::state);
+    field(phi, "phi", "Pa", Carry::state);
+    field(v_star, "u_star", "v_star", "m/s", Carry::no);
+    field(normal, "normal_x", "normal_y", "1", Carry::no);
+    field(q, "q", "Pa", Carry::no);
+    field(value, "given", "Pa", Carry::no);
+    field(source, "source", "Pa/m2", Carry::no);
+    field(flux, "flux", "Pa/m", Carry::no);
+    field(row, "row", "1", Carry::no);
+  }
 };
 
 // The velocity [m/s] of point i that walls leave of v: without its part through the wall, nothing in corners and where walls do not slip.

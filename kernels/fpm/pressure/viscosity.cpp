@@ -16,12 +16,12 @@ struct AssembleViscousRows {
   double k;
 
   // Which lanes have a row with a flux, and which are held at their right side.
-  struct Parts {
+  struct RowParts {
     Lane flux{0.0}, free{1.0};
     bool any_flux = false;
   };
-  KOKKOS_INLINE_FUNCTION Parts parts_of(const Lanes& me) const {
-    Parts parts;
+  KOKKOS_INLINE_FUNCTION RowParts parts_of(const Lanes& me) const {
+    RowParts parts;
     for (int l = 0; l < lanes; ++l) {
       const int i = me.particle(l), kind = places.kind(i);
       const bool held = kind == in_corner || (kind == on_wall && !places.slip), flux = !held && (kind == on_wall || places.surface(i));
@@ -59,7 +59,7 @@ struct AssembleViscousRows {
 
   KOKKOS_INLINE_FUNCTION void operator()(int c) const {
     const Lanes me = stencils.around.clusters(c);
-    const Parts parts = parts_of(me);
+    const RowParts parts = parts_of(me);
     const auto lap = stencils.load<StencilView<2>::slopes>(c, StencilView<2>::laplacian_first);
     FluxRow flux{};
     if (parts.any_flux) flux = flux_row(c, me);

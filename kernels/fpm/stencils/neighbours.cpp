@@ -17,7 +17,7 @@ struct Turns {
 
 // Fills one cluster's slab; what does not fit is counted but not stored. Returns the full length.
 template <int D>
-struct Lister {
+struct CloudLister {
   Neighbourhood<D> out;
   Rows rows;
   int slab;
@@ -81,7 +81,7 @@ const Neighbourhood<D>& NeighbourFinder<D>::find(const Rows& rows, const VecFiel
   do {
     if (longest > slab_) slab_ = longest + longest / 4;
     reserve(view_.clusters.size());
-    const Lister<D> lister{view_, rows, slab_};
+    const CloudLister<D> lister{view_, rows, slab_};
     Kokkos::parallel_reduce("fpm::list", Range(0, view_.clusters.size()), lister, Kokkos::Max<int>(longest));
   } while (longest > slab_);
   return view_;

@@ -21,13 +21,13 @@ Field<int> integers(const std::string& label, int n) { return Field<int>(label, 
 }  // namespace
 
 template <int D>
-Followers<D>::Followers(int particles, const Start& start) : place_(integers("sisph.place_of_id", particles)) {
+Followers<D>::Followers(int particles, const Origin& start) : place_(integers("sisph.place_of_id", particles)) {
   list(particles, leaders(particles, start));
   locate(particles, start.id);
 }
 
 template <int D>
-Field<int> Followers<D>::leaders(int particles, const Start& start) const {
+Field<int> Followers<D>::leaders(int particles, const Origin& start) const {
   const Field<int> leader = integers("sisph.leader_of_id", particles);
   const Rows rows = start.rows;
   const VecField<double, D> x = start.x;

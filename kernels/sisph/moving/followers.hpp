@@ -11,7 +11,7 @@ template <int D>
 class Followers {
  public:
   // Where particles stood at t = 0, in the order of rows.
-  struct Start {
+  struct Origin {
     const Rows& rows;
     VecField<double, D> x;           // m
     Field<int> id, kind;             // kind > 0: beside the domain
@@ -19,7 +19,7 @@ class Followers {
     double spacing;                  // m
   };
   Followers() = default;
-  explicit Followers(int particles, const Start& start);
+  explicit Followers(int particles, const Origin& start);
 
   // To be called when the order of particles changed.
   void locate(int particles, const Field<int>& id);
@@ -27,7 +27,7 @@ class Followers {
   void follow(const VecField<double, D>& v) const;
 
  public:
-  Field<int> leaders(int particles, const Start& start) const;  // id of each particle's, by id; -1: it follows none
+  Field<int> leaders(int particles, const Origin& start) const;  // id of each particle's, by id; -1: it follows none
   void list(int particles, const Field<int>& leader);
 
  private:

@@ -160,7 +160,7 @@ template <int D>
 double MovingWater<D>::find_jump(const VecField<double, D>& v) {
   g_.images.fill(v);
   double most = 0;
-  Kokkos::parallel_reduce("sisph::jump", Range(0, g_.slices.count), Jump<D>{g_, v}, Kokkos::Max<double>(most));
+  Kokkos::parallel_reduce("sisph::jump", Range(0, g_.slices.count), LargestJump<D>{g_, v}, Kokkos::Max<double>(most));
   return std::sqrt(most);
 }
 

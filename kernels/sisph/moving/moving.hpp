@@ -19,6 +19,7 @@
 #include "kernels/sisph/moving/paths.hpp"
 #include "kernels/sisph/pairs/geometry.hpp"
 #include "kernels/sisph/velocity/gradient.hpp"
+#include "kernels/sisph/particles.hpp"
 
 namespace freshet::sisph {
 
@@ -38,13 +39,9 @@ struct MovingOptions {
 
 // Sorted particles at time n.
 template <int D>
-struct Swarm {
+struct Swarm : WaterFields<D> {
   const Rows& rows;
-  VecField<double, D> x, v, before;  // m, m/s; before: v^{n-1}, empty where no path needs it
-  Field<double> depth, mass, bed;    // m, m^(D+1), m; bed empty where it is flat
-  Field<double> h;                   // m
-  Field<int> id, kind;               // kind > 0: beside the domain
-  Field<double> drag;                // dt gamma; empty without friction
+  Field<double> drag;  // dt gamma; empty without friction
 };
 
 // What a step would come to.

@@ -127,7 +127,7 @@ struct Even {
 
 // The square of the largest |v_i - v_j| of pairs.
 template <int D>
-struct Jump {
+struct LargestJump {
   Geometry<D> g;
   VecField<double, D> v;
 

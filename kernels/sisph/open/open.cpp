@@ -10,7 +10,7 @@ namespace {
 // The surface's gradient at each place of the rim, from all water around it.
 template <int D>
 struct RimSlope {
-  Fit<D> fit;
+  OpenFit<D> fit;
   Field<int> particle;
   VecField<double, D> slope;
 
@@ -37,7 +37,7 @@ struct RimSlope {
 
 template <int D>
 struct TraceBack {
-  Fit<D> fit;
+  OpenFit<D> fit;
   Field<int> particle;
   VecField<double, D> n, foot_v;
   Field<double> foot_depth, foot_out;

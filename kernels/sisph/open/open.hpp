@@ -27,7 +27,7 @@ template <int D>
 struct TracedWater {
   Rows rows;
   VecField<double, D> x;
-  Water<D> water;
+  Layer<D> water;
   Field<double> g_n2;  // g n^2 of the friction; empty without
   double gravity, spacing;
 };

@@ -18,7 +18,7 @@ struct Found {
 
 // Quadratic least squares over the wet particles near a place; their mean beside dry ones.
 template <int D>
-struct Fit {
+struct OpenFit {
   TracedWater<D> w;
   static constexpr int terms = D == 1 ? 3 : 6;
   using Terms = Column<double, terms>;

@@ -45,7 +45,7 @@ struct Measure {
 };
 
 template <int D>
-struct Moments {
+struct KernelMoments {
   Geometry<D> g;
   double regular;
   bool linear;
@@ -91,7 +91,7 @@ struct Areas {
 template <int D>
 void measure_areas(const Geometry<D>& g, const Shapes<D>& shapes) {
   const Range all(0, g.pairs.slices());
-  launch("sisph::moments", all, Moments<D>{g, shapes.held_moment, shapes.linear});
+  launch("sisph::moments", all, KernelMoments<D>{g, shapes.held_moment, shapes.linear});
   launch("sisph::areas", all, Areas<D>{g});
 }
 

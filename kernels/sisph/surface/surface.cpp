@@ -38,7 +38,7 @@ void FreeSurface<D>::take_source(const PairSource<D>& source) {
 
 // What coefficients that are not stored need of a pass: depths change while it is solved.
 template <int D>
-void FreeSurface<D>::hold_depths(const Water<D>& water, bool drying) {
+void FreeSurface<D>::hold_depths(const Layer<D>& water, bool drying) {
   const Field<double> now = water.depth, last = depth_, held_depth = held_depth_, held_last = held_last_;
   launch("sisph::hold_depths", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) {
         const double before = larger(last(i), 0.0);
@@ -49,7 +49,7 @@ void FreeSurface<D>::hold_depths(const Water<D>& water, bool drying) {
 
 template <int D>
 template <bool drying>
-AnyPairs<D> FreeSurface<D>::recomputed(const Water<D>& water, double stiffness) const {
+AnyPairs<D> FreeSurface<D>::recomputed(const Layer<D>& water, double stiffness) const {
   const Holdings<drying> held{held_depth_, held_last_, water.bed, drag_, drag_.extent(0) > 0};
   return std::visit([&](const auto& kernel) -> AnyPairs<D> {
     return RecomputedPairs<D, std::decay_t<decltype(kernel)>, drying>{kernel, places_, held, stiffness};
@@ -72,9 +72,9 @@ const Field<double>& FreeSurface<D>::make_drag() {
 }
 
 template <int D>
-void FreeSurface<D>::start(const Water<D>& water) {
+void FreeSurface<D>::start(const Layer<D>& water) {
   const Field<double> level = level_, depth = depth_, residual = residual_, inverse = inverse_, share = share_;
-  const Water<D> w = water;
+  const Layer<D> w = water;
   first_ = true;
   launch("sisph::start_surface", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) {
         depth(i) = w.depth(i);
@@ -87,12 +87,12 @@ void FreeSurface<D>::start(const Water<D>& water) {
 
 template <int D>
 template <bool drying>
-typename FreeSurface<D>::Norms FreeSurface<D>::find_coefficients(const SliceList& active, const Water<D>& water,
+typename FreeSurface<D>::Norms FreeSurface<D>::find_coefficients(const SliceList& active, const Layer<D>& water,
                                                                  const VecField<double, D>& before, double dt) {
   const double stiffness = options_.gravity * options_.theta * options_.theta * dt * dt;
   g_.images.fill(before);
   const auto visit = [&](const auto& stored, const Field<double>& a) {
-    const Coefficients<D, drying, std::decay_t<decltype(stored)>::value> pass{
+    const PairCoefficients<D, drying, std::decay_t<decltype(stored)>::value> pass{
         g_,     active,    water,    before, depth_,     level_, drag_,            a, flux_,
         right_, residual_, row_sum_, share_, stiffness, dt,     options_.gravity, drag_.extent(0) > 0};
     return sum_of_slices<3>("sisph::coefficients", active.count, pass);
@@ -109,7 +109,7 @@ typename FreeSurface<D>::Norms FreeSurface<D>::find_coefficients(const SliceList
 }
 
 template <int D>
-double FreeSurface<D>::find_residual(const SliceList& active, const Water<D>& water) {
+double FreeSurface<D>::find_residual(const SliceList& active, const Layer<D>& water) {
   return std::visit([&](const auto& a) {
     const Residual<D, std::decay_t<decltype(a)>> pass{g_, active, a, level_, water.bed, right_, depth_, residual_};
     return std::sqrt(sum_of_slices<1>("sisph::residual", active.count, pass)[0]);
@@ -118,7 +118,7 @@ double FreeSurface<D>::find_residual(const SliceList& active, const Water<D>& wa
 
 // P + sum_j a_ij and its inverse; rows without any are left out.
 template <int D>
-void FreeSurface<D>::set_diagonal(const SliceList& active, const Water<D>& water, bool all_wet) {
+void FreeSurface<D>::set_diagonal(const SliceList& active, const Layer<D>& water, bool all_wet) {
   const Geometry<D> g = g_;
   const Field<double> level = level_, bed = water.bed, row_sum = row_sum_, diagonal = diagonal_, inverse = inverse_;
   launch("sisph::diagonal", Range(0, active.count), KOKKOS_LAMBDA(int k) {
@@ -132,7 +132,7 @@ void FreeSurface<D>::set_diagonal(const SliceList& active, const Water<D>& water
 
 // The mesh of the rows that are wet; where a_ij vanishes with the water, so does its conductance.
 template <int D>
-void FreeSurface<D>::set_mesh(const SliceList& active, const Water<D>& water, double stiffness) {
+void FreeSurface<D>::set_mesh(const SliceList& active, const Layer<D>& water, double stiffness) {
   const Geometry<D> g = g_;
   const SliceList list = active;
   const Field<double> level = level_, bed = water.bed, depth = depth_, drag = drag_, wet = wet_, conducts = mesh_depth_;
@@ -150,7 +150,7 @@ void FreeSurface<D>::set_mesh(const SliceList& active, const Water<D>& water, do
 
 // change := (P + T)^-1 residual; returns the iterations.
 template <int D>
-int FreeSurface<D>::solve_linear(const SliceList& active, const Water<D>& water, const linear::CgOptions& options, double stiffness) {
+int FreeSurface<D>::solve_linear(const SliceList& active, const Layer<D>& water, const linear::CgOptions& options, double stiffness) {
   const auto product = [&](const Field<double>& x, const Field<double>& y) {
     return std::visit([&](const auto& a) {
       using Product = linear::PairProduct<SliceList, std::decay_t<decltype(a)>>;
@@ -166,7 +166,7 @@ int FreeSurface<D>::solve_linear(const SliceList& active, const Water<D>& water,
 // would be wet for Newton's method and undo the rest, again and again. This step keeps iterates on the side of the solution where
 // Newton's are, so that their convergence is monotone still.
 template <int D>
-void FreeSurface<D>::level_rows(const SliceList& active, const Water<D>& water) {
+void FreeSurface<D>::level_rows(const SliceList& active, const Layer<D>& water) {
   std::visit([&](const auto& a) {
     const LevelAlone<D, std::decay_t<decltype(a)>> pass{g_, active, a, level_, water.bed, right_, row_sum_, change_};
     launch("sisph::level_alone", Range(0, active.count), pass);
@@ -181,7 +181,7 @@ void FreeSurface<D>::level_rows(const SliceList& active, const Water<D>& water) 
 }
 
 template <int D>
-SurfaceReport FreeSurface<D>::solve(const SliceList& active, const Water<D>& water, const VecField<double, D>& before, double dt,
+SurfaceReport FreeSurface<D>::solve(const SliceList& active, const Layer<D>& water, const VecField<double, D>& before, double dt,
                                     bool drying) {
   const Region region("sisph::free_surface");
   const Norms norms = drying ? find_coefficients<true>(active, water, before, dt) : find_coefficients<false>(active, water, before, dt);

@@ -14,9 +14,9 @@
 
 namespace freshet::sisph {
 
-// The state that a step starts from.
+// The layer of water that a step starts from.
 template <int D>
-struct Water {
+struct Layer {
   Field<double> depth;    // m, >= 0
   Field<double> bed;      // m
   VecField<double, D> v;  // m/s
@@ -66,28 +66,28 @@ class FreeSurface {
   const Field<double>& flux() const { return flux_; }      // per pair: f_ij, m3/s
 
   // Sets the iterate to the surface of the water and the depth to its depth.
-  void start(const Water<D>& water);
+  void start(const Layer<D>& water);
   // One Picard pass: coefficients from the mean of the face depths of `water` and of the last pass, then the solve.
   // before: velocity before the pressure at n+1. drying: some particle may be dry.
-  SurfaceReport solve(const SliceList& active, const Water<D>& water, const VecField<double, D>& before, double dt, bool drying);
+  SurfaceReport solve(const SliceList& active, const Layer<D>& water, const VecField<double, D>& before, double dt, bool drying);
 
   // Parts of solve() and of the constructor.
-  void level_rows(const SliceList& active, const Water<D>& water);
-  void set_mesh(const SliceList& active, const Water<D>& water, double stiffness);
-  void set_diagonal(const SliceList& active, const Water<D>& water, bool all_wet);
+  void level_rows(const SliceList& active, const Layer<D>& water);
+  void set_mesh(const SliceList& active, const Layer<D>& water, double stiffness);
+  void set_diagonal(const SliceList& active, const Layer<D>& water, bool all_wet);
   void take_source(const PairSource<D>& source);
-  void hold_depths(const Water<D>& water, bool drying);
+  void hold_depths(const Layer<D>& water, bool drying);
 
  private:
   struct Norms {
     double residual, right;
   };
   template <bool drying>
-  Norms find_coefficients(const SliceList& active, const Water<D>& water, const VecField<double, D>& before, double dt);
+  Norms find_coefficients(const SliceList& active, const Layer<D>& water, const VecField<double, D>& before, double dt);
   template <bool drying>
-  AnyPairs<D> recomputed(const Water<D>& water, double stiffness) const;
-  double find_residual(const SliceList& active, const Water<D>& water);
-  int solve_linear(const SliceList& active, const Water<D>& water, const linear::CgOptions& options, double stiffness);
+  AnyPairs<D> recomputed(const Layer<D>& water, double stiffness) const;
+  double find_residual(const SliceList& active, const Layer<D>& water);
+  int solve_linear(const SliceList& active, const Layer<D>& water, const linear::CgOptions& options, double stiffness);
 
   Geometry<D> g_;
   Rows rows_;

@@ -16,10 +16,10 @@ KOKKOS_FORCEINLINE_FUNCTION Lane run_up_depth(Lane depth, Lane bed, Lane dry_bed
 // a, f, b, the row sums, the residual of the iterate and the share of its outflow f that a particle has water for; returns the
 // slice's terms of |r|^2 and |b|^2, and how many of its particles would give more than they have. a is written where it is stored.
 template <int D, bool drying, bool stored>
-struct Coefficients {
+struct PairCoefficients {
   Geometry<D> g;
   SliceList active;
-  Water<D> water;
+  Layer<D> water;
   VecField<double, D> before;
   Field<double> last_depth, level;                 // of the Picard pass before
   Field<double> drag;                              // dt gamma; empty unless dragged

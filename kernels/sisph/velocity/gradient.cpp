@@ -79,7 +79,7 @@ template <int D>
 struct Velocities {
   Geometry<D> g;
   SliceList active;
-  Water<D> water;
+  Layer<D> water;
   VelocityGradient<D> out;
 
   KOKKOS_FUNCTION void operator()(int k) const {
@@ -117,7 +117,7 @@ void surface_gradient(const Geometry<D>& g, const SliceList& active, const Field
 }
 
 template <int D>
-void velocity_gradient(const Geometry<D>& g, const SliceList& active, const Water<D>& water, const VelocityGradient<D>& gradient) {
+void velocity_gradient(const Geometry<D>& g, const SliceList& active, const Layer<D>& water, const VelocityGradient<D>& gradient) {
   g.images.fill(water.v);
   launch("sisph::velocity_gradient", Range(0, active.count), Velocities<D>{g, active, water, gradient});
   g.images.fill_gradient(gradient.u, gradient.v);
@@ -127,7 +127,7 @@ template void surface_gradient(const Geometry<1>&, const SliceList&, const Field
                                const VecField<double, 1>&, bool);
 template void surface_gradient(const Geometry<2>&, const SliceList&, const Field<double>&, const Field<double>&,
                                const VecField<double, 2>&, bool);
-template void velocity_gradient(const Geometry<1>&, const SliceList&, const Water<1>&, const VelocityGradient<1>&);
-template void velocity_gradient(const Geometry<2>&, const SliceList&, const Water<2>&, const VelocityGradient<2>&);
+template void velocity_gradient(const Geometry<1>&, const SliceList&, const Layer<1>&, const VelocityGradient<1>&);
+template void velocity_gradient(const Geometry<2>&, const SliceList&, const Layer<2>&, const VelocityGradient<2>&);
 
 }  // namespace freshet::sisph

@@ -18,6 +18,6 @@ struct VelocityGradient {
   VecField<double, D> u, v;  // 1/s; 1-D: u alone
 };
 template <int D>
-void velocity_gradient(const Geometry<D>& g, const SliceList& active, const Water<D>& water, const VelocityGradient<D>& gradient);
+void velocity_gradient(const Geometry<D>& g, const SliceList& active, const Layer<D>& water, const VelocityGradient<D>& gradient);
 
 }  // namespace freshet::sisph

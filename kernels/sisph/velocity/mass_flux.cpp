@@ -99,7 +99,7 @@ template <int D>
 struct Advect {
   Geometry<D> g;
   SliceList active;
-  Water<D> water;
+  Layer<D> water;
   VelocityGradient<D> gradient;
   Field<double> flux, depth, slope_share;
   double dt;
@@ -146,7 +146,7 @@ MassFlux<D>::MassFlux(const Geometry<D>& g)
 }
 
 template <int D>
-double MassFlux<D>::least_depth(const SliceList& active, const Water<D>& water, const FreeSurface<D>& surface, double dt) {
+double MassFlux<D>::least_depth(const SliceList& active, const Layer<D>& water, const FreeSurface<D>& surface, double dt) {
   double least = 0;
   Kokkos::parallel_reduce("sisph::depths", Range(0, active.count),
                           Depths<D>{g_, active, water.depth, surface.flux(), surface.depth(), share_, slope_share_, dt}, Kokkos::Min<double>(least));
@@ -159,7 +159,7 @@ void MassFlux<D>::scale_outflow(const SliceList& active, const FreeSurface<D>& s
 }
 
 template <int D>
-FluxReport MassFlux<D>::close_depths(const SliceList& active, const Water<D>& water, const FreeSurface<D>& surface, double dt) {
+FluxReport MassFlux<D>::close_depths(const SliceList& active, const Layer<D>& water, const FreeSurface<D>& surface, double dt) {
   std::visit([&](const auto& a) {
     const Fluxes<D, std::decay_t<decltype(a)>> pass{g_, active, a, surface.level(), surface.flux(), 1 / dt};
     launch("sisph::fluxes", Range(0, active.count), pass);
@@ -183,7 +183,7 @@ FluxReport MassFlux<D>::close_depths(const SliceList& active, const Water<D>& wa
 }
 
 template <int D>
-void MassFlux<D>::advect(const SliceList& active, const Water<D>& water, const FreeSurface<D>& surface,
+void MassFlux<D>::advect(const SliceList& active, const Layer<D>& water, const FreeSurface<D>& surface,
                          const VelocityGradient<D>& gradient, double dt, const VecField<double, D>& advected) {
   launch("sisph::advect", Range(0, active.count),
          Advect<D>{g_, active, water, gradient, surface.flux(), surface.depth(), slope_share_, dt, advected});

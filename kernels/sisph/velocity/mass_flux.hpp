@@ -19,13 +19,13 @@ class MassFlux {
   explicit MassFlux(const Geometry<D>& g);
 
   // Turns f_ij of the surface into F_ij, in place, and finds the depth; outflow beyond what a particle has is scaled back.
-  FluxReport close_depths(const SliceList& active, const Water<D>& water, const FreeSurface<D>& surface, double dt);
+  FluxReport close_depths(const SliceList& active, const Layer<D>& water, const FreeSurface<D>& surface, double dt);
   // v* from the fluxes and the depth that they lead to.
-  void advect(const SliceList& active, const Water<D>& water, const FreeSurface<D>& surface, const VelocityGradient<D>& gradient,
+  void advect(const SliceList& active, const Layer<D>& water, const FreeSurface<D>& surface, const VelocityGradient<D>& gradient,
               double dt, const VecField<double, D>& advected);
 
  private:
-  double least_depth(const SliceList& active, const Water<D>& water, const FreeSurface<D>& surface, double dt);
+  double least_depth(const SliceList& active, const Layer<D>& water, const FreeSurface<D>& surface, double dt);
   void scale_outflow(const SliceList& active, const FreeSurface<D>& surface);
 
   Geometry<D> g_;

@@ -84,7 +84,7 @@ Viscosity<D>::Viscosity(const Geometry<D>& g, const ViscosityOptions& options)
 }
 
 template <int D>
-int Viscosity<D>::find(const Water<D>& water, const Field<double>& drag, const VecField<double, D>& predicted, double dt) {
+int Viscosity<D>::find(const Layer<D>& water, const Field<double>& drag, const VecField<double, D>& predicted, double dt) {
   const Region region("sisph::viscosity");
   const Vec<double, D> like;
   fill_images(g_.images, predicted, options_.slip);

@@ -23,7 +23,7 @@ class Viscosity {
   Viscosity(const Geometry<D>& g, const ViscosityOptions& options);
 
   // d [m/s] for u = predicted, whose images are written; drag: dt gamma, or empty. Held particles have none. Returns CG's iterations.
-  int find(const Water<D>& water, const Field<double>& drag, const VecField<double, D>& predicted, double dt);
+  int find(const Layer<D>& water, const Field<double>& drag, const VecField<double, D>& predicted, double dt);
   // to += (1 + dt gamma) d
   void add(const Field<double>& drag, const VecField<double, D>& to) const;
 

@@ -24,7 +24,7 @@ struct SolveDensity {
   ImposedLanes imposed_lanes;
   DensityOptions options;
 
-  struct State {
+  struct Solved {
     Lane rho, h, alpha, imposed, own;  // own: part of the density that the particle's own depth makes (behind walls)
   };
 
@@ -42,7 +42,7 @@ struct SolveDensity {
   KOKKOS_INLINE_FUNCTION void operator()(int c, double& evaluations, int& most, int& outgrown, int& capped, int& floored) const {
     const Particles<D>& p = sums.p;
     const Lanes me = sums.clusters(c);
-    const Here<D> i = sums.here(me);
+    const Self<D> i = sums.here(me);
     const Lane kh = me.load(p.kh), listed = me.load(p.h), calibrated = calibration(me);
     const Lane low = options.bounds.floor * i.h0, high = options.bounds.cap * i.h0;
     const Lane imposed = imposed_lanes(me), free = 1.0 - imposed;
@@ -94,7 +94,7 @@ struct SolveDensity {
     floored += count(at_bound & (h < i.h0));
   }
 
-  KOKKOS_INLINE_FUNCTION void write(const Lanes& me, const State& state, const Sums<D>& s, Lane m) const {
+  KOKKOS_INLINE_FUNCTION void write(const Lanes& me, const Solved& state, const Sums<D>& s, Lane m) const {
     const Particles<D>& p = sums.p;
     const Lane inv_h = 1.0 / state.h, per_volume = power<D>(inv_h);
     const Lane free = 1.0 - state.imposed, calibrated = calibration(me);

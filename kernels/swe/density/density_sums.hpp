@@ -89,7 +89,7 @@ KOKKOS_FORCEINLINE_FUNCTION void add_pair(const K& kernel, const Distance<V, D>&
 
 // What a cluster's particles bring to their sums.
 template <int D>
-struct Here {
+struct Self {
   Vec<Lane, D> x, v;
   Lane m, h0;
 };
@@ -113,12 +113,12 @@ struct SumDensity {
   WallView<D> walls;
   Particles<D> p;
 
-  KOKKOS_INLINE_FUNCTION Here<D> here(const Lanes& me) const {
+  KOKKOS_INLINE_FUNCTION Self<D> here(const Lanes& me) const {
     return {me.load(p.x), me.load(p.v_pred), me.load(p.m), me.load(p.h0)};
   }
 
   template <Want want>
-  KOKKOS_INLINE_FUNCTION Sums<D> sum(int c, const Here<D>& i, Lane rho, Lane h) const {
+  KOKKOS_INLINE_FUNCTION Sums<D> sum(int c, const Self<D>& i, Lane rho, Lane h) const {
     const Lane inv_h = 1.0 / h;
     const PairSums<Lane, D> pairs = all<want>(c, i.x, i.v, inv_h);
     Sums<D> s;
@@ -180,7 +180,7 @@ struct SumDensity {
   KOKKOS_INLINE_FUNCTION bool follow_depth(int c) const { return walls.on && !walls.mirror && walls.near.length(c) > 0; }
 
   // What the neighbours' images add: the cluster's own image sees the neighbours.
-  KOKKOS_INLINE_FUNCTION void add_images(int c, const Here<D>& i, Lane inv_h, WallSums<Lane, D>& wall) const {
+  KOKKOS_INLINE_FUNCTION void add_images(int c, const Self<D>& i, Lane inv_h, WallSums<Lane, D>& wall) const {
     const Lane per_volume = power<D>(inv_h);
     walls.for_each_image(c, i.x, [&](const Image<D>& image, Lane weight, const WallPiece& piece) {
       const Vec<Lane, D> x_image = image(i.x);
@@ -194,7 +194,7 @@ struct SumDensity {
     });
   }
 
-  KOKKOS_INLINE_FUNCTION void add_walls(int c, const Here<D>& i, Lane mass, Lane inv_h, WallSums<Lane, D>& s) const {
+  KOKKOS_INLINE_FUNCTION void add_walls(int c, const Self<D>& i, Lane mass, Lane inv_h, WallSums<Lane, D>& s) const {
     walls.near.for_each(c, [&](int k) {
       const Vec<Lane, D> normal_velocity = broadcast(walls.projector, k) * i.v;
       add_wall(kernel, walls.stretch, i.x - broadcast(at(walls.x, k)), normal_velocity, inv_h, mass * walls.share(k), s);

@@ -19,7 +19,7 @@ struct BalancedBed {
   NeighbourView near;
   WallView<D> walls;
   Particles<D> p;
-  Bed<D> bed;
+  BedTerm<D> bed;
   double half_gravity;
 
   // sum over the neighbours that counts(j) as seen from x: the particle's own place, or its image's.
@@ -69,8 +69,8 @@ struct BalancedBed {
 
 template <int D>
 void add_balanced_bed(const AnyKernel<D>& kernel, const ClusterSet& clusters, const NeighbourView& near, const WallView<D>& walls,
-                      const Particles<D>& p, const Bed<D>& bed, double gravity) {
-  const Bed<D> ground = bed;
+                      const Particles<D>& p, const BedTerm<D>& bed, double gravity) {
+  const BedTerm<D> ground = bed;
   const VecField<double, D> x = p.x;
   const ClusterSet sets = clusters;
   launch("swe::bed_level", Range(0, clusters.size()), KOKKOS_LAMBDA(int c) {
@@ -86,8 +86,8 @@ void add_balanced_bed(const AnyKernel<D>& kernel, const ClusterSet& clusters, co
 }
 
 template void add_balanced_bed<1>(const AnyKernel<1>&, const ClusterSet&, const NeighbourView&, const WallView<1>&,
-                                  const Particles<1>&, const Bed<1>&, double);
+                                  const Particles<1>&, const BedTerm<1>&, double);
 template void add_balanced_bed<2>(const AnyKernel<2>&, const ClusterSet&, const NeighbourView&, const WallView<2>&,
-                                  const Particles<2>&, const Bed<2>&, double);
+                                  const Particles<2>&, const BedTerm<2>&, double);
 
 }  // namespace freshet::swe

@@ -14,6 +14,6 @@ namespace freshet::swe {
 // Reads x, m, rho, inv_h, weight; samples bed.level [m] at x; adds to t.
 template <int D>
 void add_balanced_bed(const AnyKernel<D>& kernel, const ClusterSet& clusters, const NeighbourView& near, const WallView<D>& walls,
-                      const Particles<D>& p, const Bed<D>& bed, double gravity);
+                      const Particles<D>& p, const BedTerm<D>& bed, double gravity);
 
 }  // namespace freshet::swe

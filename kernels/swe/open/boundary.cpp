@@ -25,7 +25,7 @@ std::vector<double> widths(const std::vector<OpenBuffer<D>>& buffers) {
 }  // namespace
 
 template <int D>
-OpenBoundary<D>::OpenBoundary(const std::vector<OpenLine<D>>& pieces, std::function<OpenLaw(double)> law,
+BufferedLine<D>::BufferedLine(const std::vector<OpenLine<D>>& pieces, std::function<OpenLaw(double)> law,
                               const std::vector<double>& times, const OpenBufferOptions& options, double gravity, int first_owner)
     : law_(std::move(law)), times_(times), gravity_(gravity), buffers_(lay_out(pieces, options, first_owner)),
       section_(widths(buffers_),
@@ -39,7 +39,7 @@ OpenBoundary<D>::OpenBoundary(const std::vector<OpenLine<D>>& pieces, std::funct
 
 // The fastest that is imposed at any time, as it would enter dry land.
 template <int D>
-void OpenBoundary<D>::foresee() {
+void BufferedLine<D>::foresee() {
   double fastest = 1e-300, length = 0;
   for (const auto& buffer : buffers_) length += buffer.length();
   const std::vector<OpenRow> rows = section_.states();
@@ -54,7 +54,7 @@ void OpenBoundary<D>::foresee() {
 }
 
 template <int D>
-void OpenBoundary<D>::fill(const Rows& rows, FieldSet& particles, const Bind<D>& bind, const Ground& bed, int& next_id) {
+void BufferedLine<D>::fill(const Rows& rows, FieldSet& particles, const Bind<D>& bind, const Ground& bed, int& next_id) {
   for (auto& buffer : buffers_) buffer.survey(bed);
   observe(rows, bind(), particles.integer("kind"), bed);
   section_.take_still();
@@ -64,18 +64,18 @@ void OpenBoundary<D>::fill(const Rows& rows, FieldSet& particles, const Bind<D>&
 }
 
 template <int D>
-void OpenBoundary<D>::start(const Particles<D>& p, const Field<int>& kind, int n) {
+void BufferedLine<D>::start(const Particles<D>& p, const Field<int>& kind, int n) {
   section_.take_still();
   flow_.straddle0 = straddling(p, kind, n);
 }
 
 template <int D>
-void OpenBoundary<D>::observe(const Rows& rows, const Particles<D>& p, const Field<int>& kind, const Ground& bed) {
+void BufferedLine<D>::observe(const Rows& rows, const Particles<D>& p, const Field<int>& kind, const Ground& bed) {
   for (auto& buffer : buffers_) buffer.observe(rows, p, kind, bed);
 }
 
 template <int D>
-void OpenBoundary<D>::exchange(FieldSet& particles, const Bind<D>& bind, const Ground& bed, double t, double dt, int& next_id) {
+void BufferedLine<D>::exchange(FieldSet& particles, const Bind<D>& bind, const Ground& bed, double t, double dt, int& next_id) {
   section_.impose(law_(t), dt);
   for (auto& buffer : buffers_) {
     const Crossed crossed = buffer.convert(particles, bind(), bed);
@@ -86,7 +86,7 @@ void OpenBoundary<D>::exchange(FieldSet& particles, const Bind<D>& bind, const G
 }
 
 template <int D>
-OpenFlow OpenBoundary<D>::flow() const {
+OpenFlow BufferedLine<D>::flow() const {
   OpenFlow flow = flow_;
   const OpenFlux flux = section_.flux();
   flow.flux = flux.net, flow.flux_gross = flux.gross;
@@ -94,7 +94,7 @@ OpenFlow OpenBoundary<D>::flow() const {
 }
 
 template <int D>
-double OpenBoundary<D>::straddling(const Particles<D>& p, const Field<int>& kind, int n) const {
+double BufferedLine<D>::straddling(const Particles<D>& p, const Field<int>& kind, int n) const {
   double volume = 0;
   for (const auto& buffer : buffers_) volume += buffer.straddling(p, kind, n);
   return volume;
@@ -113,7 +113,7 @@ void each_value(Row& row, const Visit& visit) {
 }  // namespace
 
 template <int D>
-std::vector<double> OpenBoundary<D>::save() const {
+std::vector<double> BufferedLine<D>::save() const {
   const OpenFlow passed = flow();
   std::vector<double> state{passed.inflow, passed.outflow, passed.flux, passed.flux_gross, passed.straddle0};
   for (const OpenRow& row : section_.states()) {
@@ -125,7 +125,7 @@ std::vector<double> OpenBoundary<D>::save() const {
 }
 
 template <int D>
-void OpenBoundary<D>::restore(const std::vector<double>& state) {
+void BufferedLine<D>::restore(const std::vector<double>& state) {
   flow_ = {state.at(0), state.at(1), state.at(2), state.at(3), state.at(4)};
   size_t next = 5;
   std::vector<OpenRow> rows = section_.states();
@@ -137,7 +137,7 @@ void OpenBoundary<D>::restore(const std::vector<double>& state) {
   section_.restore(rows, {flow_.flux, flow_.flux_gross});
 }
 
-template class OpenBoundary<1>;
-template class OpenBoundary<2>;
+template class BufferedLine<1>;
+template class BufferedLine<2>;
 
 }  // namespace freshet::swe

@@ -13,13 +13,13 @@ struct OpenFlow {
 };
 
 template <int D>
-class OpenBoundary {
+class BufferedLine {
  public:
-  using Ground = std::optional<Bed<D>>;
+  using Ground = std::optional<BedTerm<D>>;
 
   // law(t): what is imposed at time t [s]; it is linear between the times given. first_owner: the first of the numbers > 0 for
   // the field kind, one per piece.
-  OpenBoundary(const std::vector<OpenLine<D>>& pieces, std::function<OpenLaw(double)> law, const std::vector<double>& times,
+  BufferedLine(const std::vector<OpenLine<D>>& pieces, std::function<OpenLaw(double)> law, const std::vector<double>& times,
                const OpenBufferOptions& options, double gravity, int first_owner);
 
   // Fills the buffers with the exterior state that belongs to the water as it was placed. Needs the order of the particles.

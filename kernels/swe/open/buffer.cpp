@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cellgrid/launch.hpp"
+#include "cellgrid/on_device.hpp"
 #include "kernels/swe/open/exterior.hpp"
 #include "kernels/water/ids.hpp"
 
@@ -45,22 +46,21 @@ OpenBuffer<D>::OpenBuffer(const OpenLine<D>& line, const OpenBufferOptions& opti
     total_ = before_ + count_ + wedge_rows(line.spread_b, buffer_, width_);
   }
   const auto size = static_cast<size_t>(total_);
-  extent_ = Kokkos::View<Extent*, Memory>("open.extents", size);
   farthest_ = Field<double>("open.farthest", size);
   nearest_ = Field<double>("open.nearest", size);
   room_ = Field<int>("open.room", size + 1);
   inner_room_ = Field<int>("open.inner_room", size);
-  auto host = Kokkos::create_mirror_view(extent_);
-  for (int r = 0; r < total_; ++r) host(r) = extent(r);
-  Kokkos::deep_copy(extent_, host);
+  std::vector<RowPart> parts;
+  for (int r = 0; r < total_; ++r) parts.push_back(extent(r));
+  extent_ = on_device("open.extents", parts);
 }
 
 // Where the sides of the buffer cross a row, on the lattice of the boundary particles: those on the side itself belong to the
 // piece that begins there.
 template <int D>
-typename OpenBuffer<D>::Extent OpenBuffer<D>::extent(int row) const {
+typename OpenBuffer<D>::RowPart OpenBuffer<D>::extent(int row) const {
   constexpr double rounding = 1e-6;
-  Extent part{0, buffer_};
+  RowPart part{0, buffer_};
   const double dx = options_.spacing, from_a = (row - before_ + 0.5) * width_, from_b = line_.length - from_a;
   const auto cut = [&](double distance, double spread, bool at_a) {
     if (D == 1 || spread == 0) return;
@@ -74,19 +74,19 @@ typename OpenBuffer<D>::Extent OpenBuffer<D>::extent(int row) const {
 }
 
 template <int D>
-void OpenBuffer<D>::survey(const std::optional<Bed<D>>& bed) {
+void OpenBuffer<D>::survey(const std::optional<BedTerm<D>>& bed) {
   const auto row = row_;
   const Frame at_line = frame();
-  const std::optional<Bed<D>> ground = bed;
+  const std::optional<BedTerm<D>> ground = bed;
   launch("open::survey", Range(0, count_),
          KOKKOS_LAMBDA(int r) { row(r).bed = bed_at<D>(ground, at_line.point(at_line.before + r, 0)); });
 }
 
 template <int D>
-void OpenBuffer<D>::observe(const Rows& rows, const Particles<D>& p, const Field<int>& kind, const std::optional<Bed<D>>& bed) {
+void OpenBuffer<D>::observe(const Rows& rows, const Particles<D>& p, const Field<int>& kind, const std::optional<BedTerm<D>>& bed) {
   const Frame at_line = frame();
   const auto row = row_;
-  const std::optional<Bed<D>> ground = bed;
+  const std::optional<BedTerm<D>> ground = bed;
   const Particles<D> f = p;
   const double summed = options_.summed;
   const std::optional<Friction> friction = options_.friction;
@@ -123,7 +123,7 @@ void OpenBuffer<D>::observe(const Rows& rows, const Particles<D>& p, const Field
 }
 
 template <int D>
-Crossed OpenBuffer<D>::convert(FieldSet& particles, const Particles<D>& p, const std::optional<Bed<D>>& bed) {
+Crossed OpenBuffer<D>::convert(FieldSet& particles, const Particles<D>& p, const std::optional<BedTerm<D>>& bed) {
   const Frame at_line = frame();
   const auto row = row_;
   const auto extent = extent_;
@@ -167,7 +167,7 @@ Crossed OpenBuffer<D>::convert(FieldSet& particles, const Particles<D>& p, const
         f.h(i) = smoothing_length<D>(f.kh(i), rho);
         put(f.v, i, exterior.velocity(state, at_line.line));
         put(f.v_pred, i, exterior.velocity(state, at_line.line));
-        const Extent part = extent(r);
+        const RowPart part = extent(r);
         const bool short_of = !at_line.on_line(r) && -inside < part.from + cut;
         // Water that left stretched stands in fewer, longer particles: they must still fill the support of what follows.
         if (-inside > larger(part.to + trim, reach * f.h(i)) || short_of || !at_line.beside(x, 1)) f.id(i) = -1;
@@ -222,7 +222,7 @@ int OpenBuffer<D>::count_room(const FieldSet& particles, const VecField<double, 
 }
 
 template <int D>
-void OpenBuffer<D>::insert(FieldSet& particles, const Bind<D>& bind, const std::optional<Bed<D>>& bed, int& next_id) {
+void OpenBuffer<D>::insert(FieldSet& particles, const Bind<D>& bind, const std::optional<BedTerm<D>>& bed, int& next_id) {
   const int added = count_room(particles, bind().x);
   if (added == 0) return;
   const Frame at_line = frame();

@@ -48,10 +48,10 @@ class OpenBuffer {
   OpenBuffer(const OpenLine<D>& line, const OpenBufferOptions& options, int owner);
 
   // Levels of the bed on the line; call once.
-  void survey(const std::optional<Bed<D>>& bed);
+  void survey(const std::optional<BedTerm<D>>& bed);
 
   // Shepard means of level and velocity at each row's point on the line, over the fluid within 2h.
-  void observe(const Rows& rows, const Particles<D>& p, const Field<int>& kind, const std::optional<Bed<D>>& bed);
+  void observe(const Rows& rows, const Particles<D>& p, const Field<int>& kind, const std::optional<BedTerm<D>>& bed);
 
   // The states of the rows on the line, from a to b, whose exterior states others keep. Call once, before the rest.
   void take_rows(const OpenRows& rows) { row_ = rows; }
@@ -62,16 +62,16 @@ class OpenBuffer {
   double least_depth() const { return 1e-6 * options_.spacing; }
 
   // Conversions across the line, removals, and the exterior state on the boundary particles; then insertions.
-  Crossed convert(FieldSet& particles, const Particles<D>& p, const std::optional<Bed<D>>& bed);
+  Crossed convert(FieldSet& particles, const Particles<D>& p, const std::optional<BedTerm<D>>& bed);
   int count_room(const FieldSet& particles, const VecField<double, D>& x);
-  void insert(FieldSet& particles, const Bind<D>& bind, const std::optional<Bed<D>>& bed, int& next_id);
+  void insert(FieldSet& particles, const Bind<D>& bind, const std::optional<BedTerm<D>>& bed, int& next_id);
 
   // Volume of the footprints' parts across the line: boundary particles' inside minus fluid's outside [m3].
   double straddling(const Particles<D>& p, const Field<int>& kind, int n) const;
 
  public:
   // A row's part of the buffer [m outside the line]: no wider than the sides of the buffer allow.
-  struct Extent {
+  struct RowPart {
     double from = 0, to = 0;
   };
   struct Frame {
@@ -103,7 +103,7 @@ class OpenBuffer {
   Frame frame() const { return {line_, width_, before_, count_, total_}; }
 
  private:
-  Extent extent(int row) const;
+  RowPart extent(int row) const;
 
   OpenLine<D> line_;
   OpenBufferOptions options_;
@@ -112,7 +112,7 @@ class OpenBuffer {
   double width_ = 1;
   int before_ = 0, count_ = 1, total_ = 1;
   OpenRows row_;  // on the line
-  Kokkos::View<Extent*, Memory> extent_;
+  Kokkos::View<RowPart*, Memory> extent_;
   Field<double> farthest_, nearest_;  // m, outermost and innermost boundary particle of each row
   Field<int> room_, inner_room_;      // boundary particles to insert before each row; of them at the inner edge
 };

@@ -9,13 +9,13 @@
 namespace freshet::swe {
 
 template <int D>
-KOKKOS_FORCEINLINE_FUNCTION double bed_at(const std::optional<Bed<D>>& bed, const Vec<double, D>& x) {
+KOKKOS_FORCEINLINE_FUNCTION double bed_at(const std::optional<BedTerm<D>>& bed, const Vec<double, D>& x) {
   return bed ? bed->spline.sloped_at(x).b : 0.0;
 }
 
 // A place beside the line: how far inside [m], and how far its bed lies below that on the line [m].
 template <int D>
-struct Beside {
+struct BesideLine {
   Vec<double, D> x;
   double inside, drop;
 };
@@ -23,7 +23,7 @@ struct Beside {
 // m, how much higher the surface stands on the line than there, by friction in flow of that depth and inward velocity; no more
 // than what the bed falls by, or a fifth of the depth.
 template <int D>
-KOKKOS_INLINE_FUNCTION double fall(const std::optional<Friction>& friction, double depth, double inward, const Beside<D>& there) {
+KOKKOS_INLINE_FUNCTION double fall(const std::optional<Friction>& friction, double depth, double inward, const BesideLine<D>& there) {
   if (!friction) return 0;
   const double most = larger(0.2 * depth, larger(there.drop, -there.drop));
   const double slope = friction->drag(depth, there.x) / friction->gravity * inward * larger(inward, -inward);
@@ -33,7 +33,7 @@ KOKKOS_INLINE_FUNCTION double fall(const std::optional<Friction>& friction, doub
 // What a boundary particle takes from its row.
 template <int D>
 struct Exterior {
-  std::optional<Bed<D>> bed;
+  std::optional<BedTerm<D>> bed;
   std::optional<Friction> friction;
   double least;  // m
 

@@ -40,15 +40,10 @@ template <int D>
 void Refinement<D>::lay_pattern() {
   const auto& daughters = split_->pattern.daughters;
   share_ = Field<double>("split.share", daughters.size());
-  const auto fill = [&](Field<double>& field, const auto& value) {
-    auto host = Kokkos::create_mirror_view(field);
-    for (size_t k = 0; k < daughters.size(); ++k) host(k) = value(daughters[k]);
-    assign(field, host);
-  };
-  fill(share_, [](const Daughter& d) { return d.share; });
+  upload(share_, daughters.size(), [&](std::size_t k) { return daughters[k].share; });
   for (int axis = 0; axis < D; ++axis) {
     component(offset_, axis) = Field<double>("split.offset", daughters.size());
-    fill(component(offset_, axis), [axis](const Daughter& d) { return d.x[axis]; });
+    upload(component(offset_, axis), daughters.size(), [&](std::size_t k) { return daughters[k].x[axis]; });
   }
 }
 

@@ -76,7 +76,7 @@ int difference_command(const Arguments& arguments, const Parts&) {
   std::printf("t = %.9g s and %.9g s; particles %d and %d, %zu in both\n", a.t, b.t, a.fields.size(), b.fields.size(), pairs.size());
   std::printf("%-16s %-8s %12s %12s %12s %8s\n", "field", "unit", "largest", "difference", "rms", "of id");
   for (const auto& field : a.fields.reals()) {
-    if (const auto* other = find_real(b.fields, field.name)) print_row(field, a, *other, pairs);
+    if (const auto* other = b.fields.find_real(field.name)) print_row(field, a, *other, pairs);
   }
   return 0;
 }

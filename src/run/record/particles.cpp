@@ -11,9 +11,11 @@ ParticleRecorder::ParticleRecorder(const Scene& scene, const std::string& direct
     : Observer(regular_times(scene.output.every, scene.end_time)),
       path_(path_in(directory, "particles.h5part")),
       scene_text_(scene.text),
-      file_(path_) {}
+      file_(path_, scene.output.fields, scene.fpm ? scene.water.spacing : 0) {}
 
-void ParticleRecorder::begin(const Method&) { file_.create(scene_text_, build::version); }
+void ParticleRecorder::begin(const Method& method) {
+  file_.create(scene_text_, build::version, method.fields());
+}
 
 void ParticleRecorder::append(const Method& method, const Clock& clock) const {
   file_.append(static_cast<int>(times.done()), clock.t, method.fields());

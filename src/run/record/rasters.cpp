@@ -27,12 +27,6 @@ std::vector<double> copied(const Field<double>& field) {
   return {host.data(), host.data() + host.extent(0)};
 }
 
-void fill(const Field<double>& field, const std::vector<double>& values) {
-  const auto host = Kokkos::create_mirror_view(field);
-  for (std::size_t k = 0; k < values.size(); ++k) host(k) = values[k];
-  assign(field, host);
-}
-
 std::vector<std::pair<std::string, Field<double>>> named(const Maxima& maxima) {
   return {{"max_depth", maxima.depth},
           {"max_speed", maxima.speed},
@@ -145,7 +139,7 @@ void RasterRecorder::restore(const Values& values, const Clock& clock) {
   if (!maxima_) return;
   front_ = values.at("raster_front");
   front_times_.skip_past(clock.t);
-  for (const auto& [name, field] : named(*maxima_)) fill(field, values.at("raster_" + name));
+  for (const auto& [name, field] : named(*maxima_)) upload(field, values.at("raster_" + name));
 }
 
 }  // namespace freshet

@@ -2,21 +2,12 @@
 
 #include <cmath>
 
-#include "src/io/fluid.hpp"
-
 namespace freshet {
 namespace {
 
-VecField<double, 1> vector_field(const FieldSet& f, const char* x, const char*, Vec<double, 1>) { return {f.real(x)}; }
-VecField<double, 2> vector_field(const FieldSet& f, const char* x, const char* y, Vec<double, 2>) { return {f.real(x), f.real(y)}; }
-
 template <int D>
-SortedWater<D> sorted_water(const Method& method) {
-  const FieldSet& f = method.fields();
-  const Vec<double, D> dimension;
-  const auto* kind = find_integer(f, "kind");
-  return {method.rows(), vector_field(f, "x", "y", dimension), vector_field(f, "u", "v", dimension),
-          f.real("mass"), f.real("depth"), f.real("h"), kind ? kind->data : Field<int>()};
+SortedWater<D> water_of(const Method& method) {
+  return sorted_water<D>(method.rows(), method.fields());
 }
 
 }  // namespace
@@ -47,12 +38,13 @@ CellGrid square_grid(const Domain& domain, double cell) {
 }
 
 CoverFields cover_cells(const CellGrid& grid, const Method& method) {
-  return method.dimension() == 1 ? cover_cells(grid, sorted_water<1>(method)) : cover_cells(grid, sorted_water<2>(method));
+  if (method.dimension() == 1) return cover_cells(grid, water_of<1>(method));
+  return cover_cells(grid, water_of<2>(method));
 }
 
 Front track_maxima(const CellGrid& grid, const Method& method, double t, const Maxima& maxima) {
-  return method.dimension() == 1 ? track_maxima(grid, sorted_water<1>(method), t, maxima)
-                                 : track_maxima(grid, sorted_water<2>(method), t, maxima);
+  return method.dimension() == 1 ? track_maxima(grid, water_of<1>(method), t, maxima)
+                                 : track_maxima(grid, water_of<2>(method), t, maxima);
 }
 
 std::vector<double> depth_on_grid(const CellGrid& grid, const Method& method) {

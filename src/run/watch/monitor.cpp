@@ -43,11 +43,11 @@ std::string when(const Clock& clock) {
 
 // Every comparison is false for NaN, so that "not (inside)" also finds values that are not finite.
 int count_bad(const FieldSet& fields, const Allowed& in) {
-  const Field<double> x = field_or(fields, "x", "x"), y = field_or(fields, "y", "x");
-  const Field<double> u = field_or(fields, "u", "u"), v = field_or(fields, "v", "u");
-  const Field<double> depth = field_or(fields, "depth", "x");
-  const double least = find_real(fields, "depth") ? -std::numeric_limits<double>::min() : -infinity;
-  const double limit2 = in.speed * in.speed, second = find_real(fields, "v") ? 1 : 0;
+  const Field<double> x = fields.real_or("x", "x"), y = fields.real_or("y", "x");
+  const Field<double> u = fields.real_or("u", "u"), v = fields.real_or("v", "u");
+  const Field<double> depth = fields.real_or("depth", "x");
+  const double least = fields.find_real("depth") ? -std::numeric_limits<double>::min() : -infinity;
+  const double limit2 = in.speed * in.speed, second = fields.find_real("v") ? 1 : 0;
   const int n = fields.size();
   int bad = 0;
   Kokkos::parallel_reduce(
@@ -103,11 +103,11 @@ int count_not_finite(const FieldSet& fields) {
 }
 
 // The particles on the host, where something is wrong. A field that the method does not have reads as zero.
-class Particles {
+class HostParticles {
  public:
-  explicit Particles(const FieldSet& fields) : fields_(fields) {
+  explicit HostParticles(const FieldSet& fields) : fields_(fields) {
     for (const auto& field : fields.reals()) host_.push_back(on_host(field.data));
-    if (const auto* id = find_integer(fields, "id")) id_ = on_host(id->data);
+    if (const auto* id = fields.find_integer("id")) id_ = on_host(id->data);
     x_ = host("x"), y_ = host("y"), u_ = host("u"), v_ = host("v"), depth_ = host("depth");
   }
 
@@ -157,7 +157,7 @@ class Particles {
 
 // Of several the particle with the lowest id, whatever the order in memory; "" if nothing is wrong.
 std::string find_bad(const FieldSet& fields, const Allowed& allowed) {
-  const Particles particles(fields);
+  const HostParticles particles(fields);
   int first = -1;
   std::string found;
   for (int i = 0; i < fields.size(); ++i) {

@@ -7,16 +7,10 @@
 namespace freshet {
 namespace {
 
-// Boundary particles move as they are told.
-Input<int> kinds(const FieldSet& fields) {
-  const auto* kind = find_integer(fields, "kind");
-  return kind ? kind->data : Field<int>();
-}
-
 double largest_speed(const FieldSet& fields) {
-  const Input<double> u = field_or(fields, "u", "u"), v = field_or(fields, "v", "u");
-  const Input<int> kind = kinds(fields);
-  const double second = find_real(fields, "v") ? 1 : 0;
+  const Input<double> u = fields.real_or("u", "u"), v = fields.real_or("v", "u");
+  const Input<int> kind = fields.integer_or_none("kind");  // boundary particles move as they are told
+  const double second = fields.find_real("v") ? 1 : 0;
   const bool open = kind.extent(0) > 0;
   double most = 0;
   Kokkos::parallel_reduce(

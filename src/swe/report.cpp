@@ -1,22 +1,15 @@
-// What the run loop asks of the solver's state: totals, point samples, run-up, restart scalars.
+// What the run loop asks of the state: totals, features, restart scalars.
 #include "cellgrid/launch.hpp"
 #include "src/errors.hpp"
-#include "src/point_states.hpp"
-#include "kernels/choice.hpp"
 #include "src/swe/solver.hpp"
 
 namespace freshet::swe {
 namespace {
 
-template <int D>
-SortedWater<D> sorted_water(const Rows& rows, const Particles<D>& p, const Field<int>& kind) {
-  return {rows, p.x, p.v, p.m, p.rho, p.h, kind};
-}
-
 }  // namespace
 
 template <int D>
-Totals Solver<D>::totals() const {
+Totals ExplicitSph<D>::totals() const {
   Totals totals;
   const Particles<D> p = bind();
   const Field<int> kinds = kind();
@@ -38,10 +31,10 @@ Totals Solver<D>::totals() const {
 
 // The variational acceleration belongs to water that follows the bed: its vertical velocity v . grad b counts.
 template <int D>
-Mechanics Solver<D>::mechanics() const {
+Mechanics ExplicitSph<D>::mechanics() const {
   const Particles<D> p = bind();
   const Field<int> kinds = kind();
-  const std::optional<Bed<D>> beds = bed();
+  const std::optional<BedTerm<D>> beds = bed_term();
   const bool open = !boundaries_.empty(), with_bed = beds.has_value(), rising = with_bed && beds->variational;
   const double g = scene_.gravity;
   const auto sums = sum_of_particles<4>("swe::mechanics", particles_.size(), KOKKOS_LAMBDA(int i) {
@@ -59,19 +52,7 @@ Mechanics Solver<D>::mechanics() const {
 }
 
 template <int D>
-std::vector<PointState> Solver<D>::sample(const std::vector<Point>& points) const {
-  const SortedWater<D> water = sorted_water<D>(order_.rows(), bind(), kind());
-  return point_states(sampler_.sample(water, bed_ ? &bed_->spline : nullptr, points));
-}
-
-template <int D>
-void Solver<D>::raise_wet_levels(const Shores& shores) const {
-  const SortedWater<D> water = sorted_water<D>(order_.rows(), bind(), kind());
-  freshet::raise_wet_levels<D>(water, bed_ ? &bed_->spline : nullptr, scene_.water.spacing, shores);
-}
-
-template <int D>
-std::vector<std::string> Solver<D>::features() const {
+std::vector<std::string> ExplicitSph<D>::features() const {
   std::vector<std::string> names{name_of(scene_.sph.kernel) + " kernel", "density Newton",
                                  std::visit([](const auto& s) { return s.title; }, stabilise_)};
   if (gradient_) names.push_back("velocity gradient");
@@ -79,7 +60,7 @@ std::vector<std::string> Solver<D>::features() const {
   if (scene_.sph.well_balanced)
     names.push_back("well-balanced bed");
   else if (bed_)
-    names.push_back(bed_->variational ? "bed, variational acceleration" : "bed, classical acceleration");
+    names.push_back(variational_ ? "bed, variational acceleration" : "bed, classical acceleration");
   if (friction_) names.push_back(friction_->roughness2.given() ? "Manning friction by place" : "Manning friction");
   if (walls_)
     names.push_back("walls (" + std::string(walls_->kind().title) + "), " + std::to_string(walls_->points()) + " points");
@@ -90,7 +71,7 @@ std::vector<std::string> Solver<D>::features() const {
 }
 
 template <int D>
-ScalarState Solver<D>::scalars() const {
+ScalarState ExplicitSph<D>::scalars() const {
   ScalarState state{{"crossing_time", {crossing_time_}}, {"next_id", {static_cast<double>(next_id_)}},
                     {"rebuilds", {static_cast<double>(report_.rebuilds)}}};
   for (size_t k = 0; k < boundaries_.size(); ++k) state["boundary." + std::to_string(k)] = boundaries_[k].save();
@@ -99,7 +80,7 @@ ScalarState Solver<D>::scalars() const {
 }
 
 template <int D>
-void Solver<D>::restore(const ScalarState& state) {
+void ExplicitSph<D>::restore(const ScalarState& state) {
   crossing_time_ = state.at("crossing_time")[0];
   next_id_ = static_cast<int>(state.at("next_id")[0]);
   report_.rebuilds = static_cast<long>(state.at("rebuilds")[0]);
@@ -110,7 +91,7 @@ void Solver<D>::restore(const ScalarState& state) {
   find_neighbours();  // the saved order is sorted already; gauges and walls ask for rows and lists before the next step
 }
 
-template class Solver<1>;
-template class Solver<2>;
+template class ExplicitSph<1>;
+template class ExplicitSph<2>;
 
 }  // namespace freshet::swe

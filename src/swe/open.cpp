@@ -88,7 +88,7 @@ void extend_past(Polyline& wall, const std::vector<Piece>& pieces, double spacin
 }  // namespace
 
 template <int D>
-void Solver<D>::build_boundaries() {
+void ExplicitSph<D>::build_boundaries() {
   const std::vector<Piece> all = pieces_of(scene_.boundaries);
   auto piece = all.begin();
   int owner = 1;
@@ -103,7 +103,7 @@ void Solver<D>::build_boundaries() {
 }
 
 template <int D>
-void Solver<D>::build_walls() {
+void ExplicitSph<D>::build_walls() {
   if (scene_.walls.empty()) return;
   const std::vector<Piece> pieces = pieces_of(scene_.boundaries);
   double spacing = scene_.water.spacing;  // of the coarsest buffer
@@ -122,16 +122,16 @@ void Solver<D>::build_walls() {
 
 // The buffers at the start, from the water as it was placed.
 template <int D>
-void Solver<D>::fill_boundaries() {
+void ExplicitSph<D>::fill_boundaries() {
   if (boundaries_.empty()) return;
   order_.sort(particles_);
   order_.measure_reach(particles_, particles_.real("h"), support_);
   const Particles<D> p = bind();
   launch("swe::invert_h", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) { p.inv_h(i) = 1.0 / p.h(i); });
-  for (auto& boundary : boundaries_) boundary.fill(order_.rows(), particles_, [this] { return bind(); }, bed(), next_id_);
+  for (auto& boundary : boundaries_) boundary.fill(order_.rows(), particles_, [this] { return bind(); }, bed_term(), next_id_);
 }
 
-template class Solver<1>;
-template class Solver<2>;
+template class ExplicitSph<1>;
+template class ExplicitSph<2>;
 
 }  // namespace freshet::swe
