@@ -28,7 +28,7 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();  // a resul
 inline std::string brief(double value, int digits = 6) { return formatted("%.*g", digits, value); }
 
 // A number of a table with so many decimals, in the given unit; "-" where it is not known.
-inline std::string cell(double value, double unit, int decimals) {
+inline std::string decimal(double value, double unit, int decimals) {
   return std::isfinite(value) ? formatted("%.*f", decimals, value / unit) : "-";
 }
 // The same in powers of ten.

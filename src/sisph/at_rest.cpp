@@ -98,7 +98,7 @@ void EulerianSph<D>::require_water(const std::string& who_needs) const {
     throw Diverged("a particle fell dry, and " + who_needs + " water everywhere\n  help: sisph.momentum = \"mass-flux\"");
 }
 
-// Section 3 of the formulas: fully wet.
+// docs/formulas/sisph.md (I18), (I19): fully wet.
 template <int D>
 void EulerianSph<D>::carry_along_paths(double t, double dt) {
   require_water("velocities carried along particle paths need");

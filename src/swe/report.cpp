@@ -1,5 +1,6 @@
 // What the run loop asks of the state: totals, features, restart scalars.
 #include "cellgrid/launch.hpp"
+#include "kernels/choice.hpp"
 #include "src/errors.hpp"
 #include "src/swe/solver.hpp"
 

@@ -19,8 +19,8 @@ TEST_CASE("text: numbers for files read back to the same bits, with no digit too
 TEST_CASE("text: numbers for people are short, and what is not known is a dash") {
   CHECK(brief(1 / 3.0) == "0.333333");
   CHECK(brief(4512345.678, 9) == "4512345.68");
-  CHECK(cell(0.0123, 1e-3, 2) == "12.30");
-  CHECK(cell(unknown, 1, 2) == "-");
+  CHECK(decimal(0.0123, 1e-3, 2) == "12.30");
+  CHECK(decimal(unknown, 1, 2) == "-");
   CHECK(scientific(0.0123, 1) == "1.2e-02");
   CHECK(scientific(unknown, 1) == "-");
 }

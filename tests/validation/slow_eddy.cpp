@@ -1,4 +1,4 @@
-// Where the semi-implicit method pays: an eddy at a Froude number of 0.01, steady, so that all change is error (docs/methods.md).
+// Where the semi-implicit method pays: an eddy at a Froude number of 0.01, steady, so that all change is error (docs/howto/choose_a_method.md).
 #include <catch2/catch.hpp>
 
 #include <cmath>

@@ -37,9 +37,9 @@ std::string table(const std::vector<GaugeResult>& gauges) {
   std::string lines = formatted("\n%-12s %8s %8s %8s   %15s   %15s   %15s\n", "gauge", "rmse", "in wave",
                                 "max", "peak [cm]", "at [s]", "arrival [s]");
   lines += formatted(row, "", "[mm]", "[mm]", "[mm]", "run", "meas.", "run", "meas.", "run", "meas.");
-  const auto mm = [](double m) { return cell(m, 1e-3, 2); };
-  const auto cm = [](double m) { return cell(m, 1e-2, 2); };
-  const auto s = [](double t) { return cell(t, 1, 2); };
+  const auto mm = [](double m) { return decimal(m, 1e-3, 2); };
+  const auto cm = [](double m) { return decimal(m, 1e-2, 2); };
+  const auto s = [](double t) { return decimal(t, 1, 2); };
   for (const auto& g : gauges)
     lines += formatted(row, g.name.c_str(), mm(g.rmse).c_str(), mm(g.rmse_window).c_str(),
                        mm(g.max_abs_error).c_str(), cm(g.peak).c_str(), cm(g.measured_peak).c_str(),

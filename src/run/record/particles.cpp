@@ -18,6 +18,7 @@ void ParticleRecorder::begin(const Method& method) {
 }
 
 void ParticleRecorder::append(const Method& method, const Clock& clock) const {
+  if (!std::filesystem::exists(path_)) file_.create(scene_text_, build::version, method.fields());  // was taken away
   file_.append(static_cast<int>(times.done()), clock.t, method.fields());
 }
 
@@ -30,7 +31,6 @@ void ParticleRecorder::save(Values&) const { sync_file(path_); }
 
 void ParticleRecorder::restore(const Values&, const Clock&) {
   if (std::filesystem::exists(path_)) file_.truncate(static_cast<int>(times.done()));
-  else file_.create(scene_text_, build::version);
 }
 
 }  // namespace freshet

@@ -48,7 +48,7 @@ void RunUpRecorder::report(const Method&, const Clock&, Report& report) const {
   for (const RunUpResult& r : results()) {
     highest.value(r.name, r.highest);
     waterline.value(r.name, r.waterline);
-    const auto m = [](double value) { return cell(value, 1, 4); };
+    const auto m = [](double value) { return decimal(value, 1, 4); };
     const bool known = std::isfinite(r.measured.first);
     report.tables +=
         formatted("%-12s %12s %13s   %s\n", r.name.c_str(), m(r.highest).c_str(), m(r.waterline).c_str(),

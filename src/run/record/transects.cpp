@@ -140,9 +140,9 @@ void TransectRecorder::report(const Method&, const Clock&, Report& report) const
         .value("time", r.time).value("rmse", r.rmse).value("max_abs_error", r.max_abs_error)
         .value("measured_range", r.measured_range).value("points", r.points)
         .end();
-    const auto mm = [](double m) { return cell(m, 1e-3, 2); };
+    const auto mm = [](double m) { return decimal(m, 1e-3, 2); };
     report.tables +=
-        formatted("%-12s %8s %8s %8s %12s %7d\n", r.name.c_str(), cell(r.time, 1, 2).c_str(),
+        formatted("%-12s %8s %8s %8s %12s %7d\n", r.name.c_str(), decimal(r.time, 1, 2).c_str(),
                   mm(r.rmse).c_str(), mm(r.max_abs_error).c_str(), mm(r.measured_range).c_str(), r.points);
   }
   out.end();

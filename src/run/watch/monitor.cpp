@@ -136,7 +136,7 @@ class HostParticles {
   using Host = decltype(on_host(Field<double>()));
 
   Host host(const char* name) const {
-    const auto* field = find_real(fields_, name);
+    const auto* field = fields_.find_real(name);
     return field ? on_host(field->data) : Host();
   }
 
