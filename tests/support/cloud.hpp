@@ -69,9 +69,6 @@ inline Box wide(double spacing) { return {-2000 * spacing, 2000 * spacing, -2000
 // x, (y), h and id of points, unsorted. ids: empty = in order.
 FieldSet point_fields(int dimension, const std::vector<Point>& points, std::vector<int> ids = {});
 
-template <int D>
-}
-
 // A particle as a test describes it; rho is the first guess of the depth, kh = rho0 h0^D the constant of rho h^D.
 struct Grain {
   Point x, v{0, 0};
