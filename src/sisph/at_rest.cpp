@@ -232,7 +232,7 @@ void EulerianSph<D>::solve_surface(double dt, bool drying) {
 template <int D>
 void EulerianSph<D>::accept(double dt, bool closed) {
   constexpr double rounding = 1e-18;  // of the deepest
-  if (open_) open_->set_end(end_);
+  if (open_) open_->set_end(end_), open_->account(dt);
   const RimFlow rim = rim_.flow(surface_, dt, closed);
   passed_.inflow += rim.in;
   passed_.outflow += rim.out;

@@ -21,6 +21,7 @@ class EulerianSph : public SemiImplicitSph<D> {
 
   double stable_dt() const override;
   void step(double t, double dt) override;
+  Totals totals() const override;
   std::vector<std::string> features() const override;
   ScalarState scalars() const override;
   void restore(const ScalarState& scalars) override;

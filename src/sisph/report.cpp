@@ -18,8 +18,15 @@ Totals SemiImplicitSph<D>::totals() const {
   totals.mass = sum_of_particles<1>("sisph::mass", particles_.size(), KOKKOS_LAMBDA(int i) {
     return Addends<1>{{kind(i) > 0 ? 0.0 : mass(i)}};
   })[0];
-  totals.flux = totals.inflow - totals.outflow;
-  totals.flux_gross = totals.inflow + totals.outflow;
+  return totals;
+}
+
+template <int D>
+Totals EulerianSph<D>::totals() const {
+  Totals totals = Base::totals();
+  if (!open_) return totals;
+  const std::vector<double> through = open_->through();
+  totals.flux = through[0], totals.flux_gross = through[1];
   return totals;
 }
 
@@ -96,7 +103,7 @@ ScalarState SemiImplicitSph<D>::scalars() const {
 template <int D>
 ScalarState EulerianSph<D>::scalars() const {
   ScalarState state = Base::scalars();
-  if (open_) state["rim"] = open_->means();
+  if (open_) state["rim"] = open_->means(), state["rim_through"] = open_->through();
   state["mesh"] = {surface_.meshed() ? 1.0 : 0.0};
   return state;
 }
@@ -124,7 +131,7 @@ template <int D>
 void EulerianSph<D>::restore(const ScalarState& state) {
   Base::restore(state);
   surface_.set_meshed(state.at("mesh")[0] > 0);
-  if (open_) open_->set_means(state.at("rim"));
+  if (open_) open_->set_means(state.at("rim")), open_->set_through(state.at("rim_through"));
   Base::measure_speeds();
 }
 

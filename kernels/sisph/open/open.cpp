@@ -90,15 +90,17 @@ OpenRim<D>::OpenRim(std::vector<LawInTime> laws, const std::vector<RimPlace<D>>&
       laws_(std::move(laws), records(places, traced), traced.gravity, traced.spacing, D == 1),
       velocity_(vectors(places.size(), Vec<double, D>{})),
       foot_depth_("sisph.rim_foot_depth", places.size()), foot_out_("sisph.rim_foot_out", places.size()),
-      depth_("sisph.rim_depth", places.size()), foot_v_(vectors(places.size(), Vec<double, D>{})) {
+      depth_("sisph.rim_depth", places.size()), foot_v_(vectors(places.size(), Vec<double, D>{})), through_("sisph.rim_through", 4) {
   std::vector<int> particle;
-  std::vector<double> across, along;
+  std::vector<double> across, along, width;
   for (const RimPlace<D>& p : places) {
     particle.push_back(p.particle);
     across.push_back(p.n.x);
     along.push_back(up(p.n));
+    width.push_back(p.width);
   }
   particle_ = on_device("sisph.rim_particle", particle);
+  width_ = on_device("sisph.rim_width", width);
   n_.x = on_device("sisph.rim_x", across);
   if constexpr (D == 2) n_.y = on_device("sisph.rim_y", along);
 }
@@ -157,6 +159,33 @@ void OpenRim<D>::set_end(const VecField<double, D>& end) const {
   const Field<int> particle = particle_;
   const VecField<double, D> next = velocity_, to = end;
   launch("sisph::rim_end", Range(0, count_), KOKKOS_LAMBDA(int k) { put(to, particle(k), at(next, k)); });
+}
+
+// One place after the other, as sums may not depend on the threads.
+template <int D>
+void OpenRim<D>::account(double dt) const {
+  const Field<double> width = width_, depth = depth_, out = foot_out_, through = through_;
+  const int places = count_;
+  launch("sisph::rim_through", Range(0, 1), KOKKOS_LAMBDA(int) {
+        double net = 0, gross = 0;
+        for (int k = 0; k < places; ++k) {
+          const double q = -width(k) * depth(k) * out(k);
+          net += q, gross += ::fabs(q);
+        }
+        through(0) += 0.5 * dt * (through(2) + net), through(1) += 0.5 * dt * (through(3) + gross);
+        through(2) = net, through(3) = gross;
+      });
+}
+
+template <int D>
+std::vector<double> OpenRim<D>::through() const {
+  const auto all = on_host(through_);
+  return {all.data(), all.data() + all.extent(0)};
+}
+
+template <int D>
+void OpenRim<D>::set_through(const std::vector<double>& through) {
+  through_ = on_device("sisph.rim_through", through);
 }
 
 template class OpenRim<1>;

@@ -54,7 +54,14 @@ class OpenRim {
   // Into the velocity before the pressure: theta (v' + impulse slope) + (1 - theta) v.
   void set_before(const RimPush<D>& push, const VecField<double, D>& before) const;
   void set_end(const VecField<double, D>& end) const;
+  // Adds what the laws' states carry through the lines in a step, depth x inward velocity x width, as a trapezium.
+  void account(double dt) const;
   int size() const { return count_; }
+
+  // m3 since t = 0, inwards and of its size, and both per second at n; the first two are what the water that
+  // crosses is held against. Part of the restart state.
+  std::vector<double> through() const;
+  void set_through(const std::vector<double>& through);
 
   // Slow means of v.n and c at the feet: part of the restart state.
   std::vector<double> means() const { return laws_.means(); }
@@ -70,6 +77,7 @@ class OpenRim {
   VecField<double, D> n_, velocity_;             // velocity_: at n+1
   Field<double> foot_depth_, foot_out_, depth_;  // of the foot: depth, v.n with sources; depth_: at n+1
   VecField<double, D> foot_v_;
+  Field<double> width_, through_;                // m, of the line; as through() has them
 };
 
 }  // namespace freshet::sisph

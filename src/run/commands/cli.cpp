@@ -12,7 +12,7 @@
 namespace freshet {
 namespace {
 
-const char* const help_text = R"(freshet: meshless shallow-water solver
+const char* const help_text = R"(freshet: meshless solver for free-surface flow
 
 usage:
   freshet run SCENE [key=value ...] [--out DIR] [--threads N] [--overwrite] [--quiet]
