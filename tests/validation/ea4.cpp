@@ -9,8 +9,8 @@ using namespace freshet;
 TEST_CASE("EA test 4: the front of a breach crosses a plain in time and leaves the right depths", "[ea4][long]") {
   if (!test::data_file("ea_tests/test4/ea4-5m-dg2_subset.csv")) return;
   const Scene scene = test::read_case("ea4");
-  // At the case's 4 m the front is 76 particles when it nears P2, and by chance one of eight runs, told apart by rounding alone,
-  // sends a few of them ahead: there by 721 s in place of 910 to 943. At 2.5 m there are 200.
+  // At the case's 4 m the front is 76 particles when it nears P2, and by chance two of eight runs, told apart by rounding alone,
+  // send a few of them ahead: there by 721 s in place of 910 to 943. At 2.5 m there are 200.
   const test::CaseRun run = test::finish_case("ea4", {"water.spacing=2.5"});
   REQUIRE(run.gauges.size() == 6);
   for (std::size_t g = 0; g < run.gauges.size(); ++g) {
