@@ -47,6 +47,9 @@ Vec<double, D> to_vec(const std::array<double, 2>& a) {
   return to_vec<D>(a[0], a[1]);
 }
 
+KOKKOS_FORCEINLINE_FUNCTION double y_of(const Vec<double, 1>&) { return 0; }
+KOKKOS_FORCEINLINE_FUNCTION double y_of(const Vec<double, 2>& a) { return a.y; }
+
 // f of each number, of several vectors or matrices number by number.
 template <class F, class... V>
 KOKKOS_FORCEINLINE_FUNCTION auto each(const F& f, const Vec<V, 1>&... a) -> Vec<decltype(f(a.x...)), 1> {

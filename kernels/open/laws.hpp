@@ -1,4 +1,4 @@
-// The laws of open_states.hpp, for host and device.
+// The laws of states.hpp, for host and device.
 #pragma once
 #include "cellgrid/types.hpp"
 #include "kernels/open/states.hpp"

@@ -5,7 +5,7 @@
 // local Froude number and the sign of u by itself: what leaves supercritically is copied, and no more than
 // critical flow passes where only one value is imposed.
 //
-// To add a law, write its struct, name it in OpenLaw and write its operator() in open_laws.hpp. name and title are
+// To add a law, write its struct, name it in OpenLaw and write its operator() in laws.hpp. name and title are
 // what a scene says and what the program shows, keys(k) tells what a scene gives for it (kernels/choice.hpp), values
 // that follow time first in the order in which set() takes them [SI].
 #pragma once
@@ -36,27 +36,25 @@ struct ExteriorState {
   bool closed = false;  // nothing passes: a reflecting wall for the water inside
 };
 
-// Level imposed: d_b = level - bed, u_b = 2 c_b - R (4.2).
-struct ImposedLevel {
-  static constexpr const char *name = "elevation", *title = "imposed elevation";
+// What a law of one level has.
+struct LevelInTime {
   double level = 0;  // m
   template <class Keys>
   void keys(Keys& k) {
     k.level();
   }
   KOKKOS_INLINE_FUNCTION void set(double level_now, double) { level = level_now; }
+};
+
+// Level imposed: d_b = level - bed, u_b = 2 c_b - R (4.2).
+struct ImposedLevel : LevelInTime {
+  static constexpr const char *name = "elevation", *title = "imposed elevation";
   KOKKOS_INLINE_FUNCTION ExteriorState operator()(const InnerState& inner, const OpenStrip& strip) const;
 };
 
 // Level of the incoming wave alone: its invariant u + 2 c = 4 c(level) - 2 c(still) enters, R leaves.
-struct IncomingWave {
+struct IncomingWave : LevelInTime {
   static constexpr const char *name = "wave", *title = "incoming wave";
-  double level = 0;  // m
-  template <class Keys>
-  void keys(Keys& k) {
-    k.level();
-  }
-  KOKKOS_INLINE_FUNCTION void set(double level_now, double) { level = level_now; }
   KOKKOS_INLINE_FUNCTION ExteriorState operator()(const InnerState& inner, const OpenStrip& strip) const;
 };
 
@@ -74,7 +72,7 @@ struct ImposedVelocity {
 
 // Discharge imposed, of which strip.share passes here: 2 c^3 - R c^2 = g q with q = u d; 0 is a wall.
 struct ImposedDischarge {
-  static constexpr const char *name = "discharge", *title = "imposed discharge by ";
+  static constexpr const char *name = "discharge", *title = "imposed discharge";
   double total = 0;       // m3/s (1-D: m2/s), inwards
   bool by_width = false;  // shares in proportion to the width, else to the conveyance
   template <class Keys>
@@ -119,6 +117,11 @@ struct Transmissive {
 };
 
 using OpenLaw = std::variant<ImposedLevel, IncomingWave, ImposedVelocity, ImposedDischarge, ImposedState, Transmissive>;
+
+// Depth x inward velocity x width of lines, and its size: of an instant m3/s (1-D: m2/s), summed over time m3 (m2).
+struct OpenFlux {
+  double net = 0, gross = 0;
+};
 
 ExteriorState exterior_state(const OpenLaw& law, const InnerState& inner, const OpenStrip& strip);
 

@@ -1,4 +1,4 @@
-// Places and lines as scenes name them; apart from their geometry, so that what reads scenes needs no Kokkos.
+// Places and lines as scenes name them; their geometry is in polyline.hpp.
 #pragma once
 #include <array>
 #include <vector>

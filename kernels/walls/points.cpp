@@ -143,7 +143,7 @@ WallGeometry lay_walls(int dimension, const std::vector<Polyline>& lines, const 
 bool only_right_corners(const std::vector<Polyline>& lines) {
   const std::vector<Piece> all = pieces_of(lines);
   return std::none_of(all.begin(), all.end(), [&](const Piece& s) {
-    return s.after >= 0 && std::abs(turn_between(s, all[s.after]) - std::acos(0.0)) > 1e-6;
+    return s.after >= 0 && std::abs(turn_between(s, all[s.after]) - 0.5 * pi) > 1e-6;
   });
 }
 

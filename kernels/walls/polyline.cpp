@@ -59,6 +59,7 @@ double distance(const Point& p, const Piece& piece) {
 }
 
 double distance(const Point& p, const Polyline& line) {
+  if (line.empty()) return 1e300;
   double least = distance(p, piece_between(line[0], line[0]));
   for (std::size_t k = 0; k + 1 < line.size(); ++k)
     least = std::min(least, distance(p, piece_between(line[k], line[k + 1])));

@@ -86,7 +86,7 @@ KOKKOS_FORCEINLINE_FUNCTION bool crosses_ray(const Vec<double, 2>& a, const Vec<
 bool meet(const Point& p, const Point& q, double tolerance);    // m
 bool is_closed(const Polyline& line, double tolerance = 0);     // m, between its ends
 
-Piece piece_between(const Point& a, const Point& b);
+Piece piece_between(const Point& a, const Point& b);  // of one point: without direction
 // Adds a line's pieces, joined to each other.
 void append_pieces(const Polyline& line, bool closed, std::vector<Piece>& pieces);
 std::vector<Piece> pieces_of(const std::vector<Polyline>& lines, double tolerance = 0);
@@ -96,13 +96,14 @@ std::vector<Piece> pieces_of(const std::vector<Polyline>& lines, double toleranc
 double turn(const Vec<double, 2>& from, const Vec<double, 2>& to);
 
 double distance(const Point& p, const Piece& piece);    // m
-double distance(const Point& p, const Polyline& line);  // m, to its nearest piece; of one point: to that
+// m, to a line's nearest piece; of one point: to that; of none: 1e300.
+double distance(const Point& p, const Polyline& line);
 
 // Of polygons, whose last corner is joined to the first; it may be given twice.
 double signed_area(const Polyline& polygon);               // m2, positive counter-clockwise
 bool crosses_itself(const Polyline& polygon);
 bool encloses(const Polyline& polygon, const Point& p);  // low edges count as inside, high ones as outside
 
-Box bounds_of(const Polyline& line);
+Box bounds_of(const Polyline& line);  // of one point at least
 
 }  // namespace freshet

@@ -1,4 +1,4 @@
-// What water feels behind a wall (kernels/walls.hpp); to add a kind, write its row and name it in wall_kinds().
+// What water feels behind a wall (kernels/walls/walls.hpp); to add a kind, write its row and name it in wall_kinds().
 #pragma once
 #include <vector>
 

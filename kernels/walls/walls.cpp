@@ -1,20 +1,12 @@
 #include "kernels/walls/walls.hpp"
 
-#include <algorithm>
-
+#include "cellgrid/assign.hpp"
 #include "cellgrid/box.hpp"
 #include "cellgrid/launch.hpp"
 #include "cellgrid/on_device.hpp"
 
 namespace freshet {
 namespace {
-
-template <class T, class F>
-void fill(const Field<T>& field, const std::vector<WallPoint>& points, const F& value) {
-  auto host = Kokkos::create_mirror_view(field);
-  for (size_t k = 0; k < points.size(); ++k) host(k) = value(points[k]);
-  assign(field, host);
-}
 
 void number(const Field<int>& id, int n) {
   launch("walls::number", Range(0, n), KOKKOS_LAMBDA(int k) { id(k) = k; });
@@ -38,7 +30,9 @@ Walls<D>::Walls(const std::vector<Polyline>& lines, const WallOptions& options, 
       reach_(support / kind_.stretch.factor[0]), depth_(2 * options.spacing) {
   const WallGeometry g = lay_walls(D, lines, options, inside);
   points_ = FieldSet(static_cast<int>(g.points.size()));
-  const auto add = [&](const char* name, const auto& value) { fill(points_.real(name, "m", Carry::sort), g.points, value); };
+  const auto add = [&](const char* name, const auto& value) {
+    upload(points_.real(name, "m", Carry::sort), g.points.size(), [&](size_t k) { return value(g.points[k]); });
+  };
   add("x", [](const WallPoint& w) { return w.x[0]; });
   add("pxx", [](const WallPoint& w) { return w.p[0]; });
   add("share", [](const WallPoint& w) { return w.share; });
@@ -47,7 +41,7 @@ Walls<D>::Walls(const std::vector<Polyline>& lines, const WallOptions& options, 
     add("pxy", [](const WallPoint& w) { return w.p[1]; });
     add("pyy", [](const WallPoint& w) { return w.p[2]; });
   }
-  fill(points_.integer("piece", "1", Carry::sort), g.points, [](const WallPoint& w) { return w.piece; });
+  upload(points_.integer("piece", "1", Carry::sort), g.points.size(), [&](size_t k) { return g.points[k].piece; });
   number(points_.integer("id", "1", Carry::sort), points_.size());
   order_.sort(points_);
   // Water alone decides what is near. With tiles of that size (most clusters' reach) water off the walls sees

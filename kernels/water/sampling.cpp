@@ -12,8 +12,6 @@ namespace {
 // few particles that reach a point would carry their depth up to 2h ahead of the water.
 constexpr double least_cover = 0.25;
 
-KOKKOS_FORCEINLINE_FUNCTION double y_of(const Vec<double, 1>&) { return 0; }
-KOKKOS_FORCEINLINE_FUNCTION double y_of(const Vec<double, 2>& p) { return p.y; }
 
 // Calls visit(j) for the wet particles in the runs around a place.
 template <int D, class Visit>

@@ -33,8 +33,6 @@ class FinitePointset : public Method {
   Field<double> flow_pressure() const;
 
   const PoissonReport& pressure_report() const { return pressure_; }
-  const linear::BiCgStabReport& viscosity_report() const { return viscosity_; }
-  const PointCount& counts() const { return counts_; }  // since t = 0
 
  private:
   Flow declare(const FieldList& fields) const;

@@ -120,4 +120,11 @@ void read_checkpoint_fields(const std::string& path, FieldSet& fields) {
   }
 }
 
+void look_at_checkpoint(const std::string& path, const std::function<void()>& use) try {
+  use();
+} catch (const std::out_of_range&) {
+  throw IoError(path + ": lacks what this version looks at; another version of the program wrote it\n  help: start "
+                "the run anew");
+}
+
 }  // namespace freshet

@@ -2,6 +2,7 @@
 // to the disk and then renamed, so that the last good one outlives a full disk or a crash. Failures are
 // IoError.
 #pragma once
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -15,7 +16,7 @@ using Values = std::map<std::string, std::vector<double>>;
 struct Checkpoint {
   std::string scene_file;  // absolute path: the scene's data files are relative to it
   std::string scene_text;  // overrides applied
-  Values run;              // clock, counters, gauge state, run-up maxima, mass at the start
+  Values run;              // clock, effort, and what the observers save
   Values method;           // Method::scalars()
 };
 
@@ -25,5 +26,8 @@ void write_checkpoint(const std::string& path, const Checkpoint& checkpoint, con
 Checkpoint read_checkpoint(const std::string& path);
 // Sets the particle count and every stored field; throws if a saved field of `fields` is not in the file.
 void read_checkpoint_fields(const std::string& path, FieldSet& fields);
+
+// Calls use(), which looks at what a checkpoint holds with at(): what it lacks is an IoError that says so.
+void look_at_checkpoint(const std::string& path, const std::function<void()>& use);
 
 }  // namespace freshet

@@ -10,7 +10,6 @@ struct Fluid {
   std::vector<double> x, y;   // m; y is zero in 1-D
   std::vector<double> u, v;   // m/s
   std::vector<double> depth;  // m
-  std::vector<double> bed;    // m; zero where the scene has no bed
   std::vector<double> mass;   // m3
   std::vector<double> h;      // m, smoothing length
   std::vector<int> id;

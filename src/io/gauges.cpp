@@ -1,6 +1,5 @@
 #include "src/io/gauges.hpp"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <stdexcept>
 
 #include "src/errors.hpp"
 #include "src/io/files.hpp"
@@ -30,12 +32,14 @@ class Columns {
  public:
   Columns(const FieldSet& fields, double spacing) : fields_(fields), spacing_(spacing) {}
 
-  // Those that the method has, each once.
+  // Those wanted, each once, or of the usual ones those that the method has.
   std::vector<std::string> those_of(const std::optional<std::vector<std::string>>& wanted) const {
     const std::vector<std::string> usual{"z", "depth", "p", "u", "v", "surface", "size"};
     std::vector<std::string> names;
-    for (const std::string& name : wanted ? *wanted : usual)
+    for (const std::string& name : wanted ? *wanted : usual) {
+      if (wanted && !has(name)) throw std::logic_error("output.fields: the method has no field " + name);
       if (has(name) && std::count(names.begin(), names.end(), name) == 0) names.push_back(name);
+    }
     return names;
   }
   std::string unit(const std::string& name) const {
@@ -58,13 +62,16 @@ class Columns {
     if (name == "size") return (fields_.has("depth") && fields_.has("mass")) || spacing_ > 0;
     return fields_.has(name);
   }
-  std::vector<double> real(const std::string& name, const std::vector<int>& water) const {
-    return gather(fields_.find_real(name), water);
+  // Copied to the host once, though z, depth and size ask for the same.
+  const std::vector<double>& real(const std::string& name, const std::vector<int>& water) const {
+    const auto known = copied_.find(name);
+    return known != copied_.end() ? known->second : copied_[name] = gather(fields_.find_real(name), water);
   }
   std::vector<double> values(const std::string& name, const std::vector<int>& water) const {
     if (name == "size") return sizes(water);
     if (name != "z") return real(name, water);
-    std::vector<double> z = real("bed", water), depth = real("depth", water);
+    std::vector<double> z = real("bed", water);
+    const std::vector<double>& depth = real("depth", water);
     for (std::size_t k = 0; k < z.size(); ++k) z[k] += depth[k];
     return z;
   }
@@ -73,7 +80,7 @@ class Columns {
     if (fields_.has("dx")) return real("dx", water);
     if (!fields_.has("depth")) return std::vector<double>(water.size(), spacing_);
     std::vector<double> size = real("mass", water);
-    const std::vector<double> depth = real("depth", water);
+    const std::vector<double>& depth = real("depth", water);
     for (std::size_t k = 0; k < size.size(); ++k) {
       const double area = depth[k] > 0 ? size[k] / depth[k] : 0;
       size[k] = fields_.has("y") ? std::sqrt(area) : area;
@@ -83,6 +90,7 @@ class Columns {
 
   const FieldSet& fields_;
   double spacing_;
+  mutable std::map<std::string, std::vector<double>> copied_;
 };
 
 }  // namespace
@@ -152,12 +160,12 @@ ParticleStep read_particle_step(const std::string& path, int step) {
   read.x = group.reals("x");
   read.y = group.reals("y");
   const auto held = [&](const char* name) {
-    return group.has(name) ? group.reals(name) : std::vector<double>(read.x.size(), 0.0);
+    return group.has(name) ? group.reals(name) : std::vector<double>();
   };
   read.z = held("z");
   read.depth = held("depth");
   read.v_0 = held("v_0");
-  if (group.has("v_1")) read.v_1 = group.reals("v_1");
+  read.v_1 = held("v_1");
   read.id = group.integers("id");
   return read;
 }

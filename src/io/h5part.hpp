@@ -33,7 +33,7 @@ class ParticleFile {
 struct ParticleStep {
   int step = 0;
   double t = 0;  // s
-  std::vector<double> x, y, z, depth, v_0, v_1;  // zeros (v_1: nothing) where the file has none
+  std::vector<double> x, y, z, depth, v_0, v_1;  // nothing where the file has none
   std::vector<int> id;
 };
 

@@ -128,20 +128,18 @@ Values Driver::run_values() const {
   return values;
 }
 
-void Driver::restore(const Checkpoint& checkpoint) try {
+void Driver::restore(const Checkpoint& checkpoint) {
   const Values& run = checkpoint.run;
-  clock_ = {run.at("clock").at(0), std::lround(run.at("clock").at(1)), run.at("dt").at(0)};
-  earlier_wall_ = run.at("effort").at(0);
-  earlier_particle_steps_ = run.at("effort").at(1);
-  for (const auto& one : observers_) {
-    one->times.skip_past(clock_.t);
-    one->restore(run, clock_);
-  }
+  look_at_checkpoint(path_in(options_.directory, state_file), [&] {
+    clock_ = {run.at("clock").at(0), std::lround(run.at("clock").at(1)), run.at("dt").at(0)};
+    earlier_wall_ = run.at("effort").at(0);
+    earlier_particle_steps_ = run.at("effort").at(1);
+    for (const auto& one : observers_) {
+      one->times.skip_past(clock_.t);
+      one->restore(run, clock_);
+    }
+  });
   progress_ = Progress(options_.progress, options_.terminal, clock_.t, scene_.end_time);
-} catch (const std::out_of_range&) {
-  throw IoError(path_in(options_.directory, state_file) +
-                ": lacks what this version looks at; another version of the program wrote it\n  help: start "
-                "the run anew");
 }
 
 Summary Driver::summary() const {

@@ -1,6 +1,7 @@
 // How a scene's choices (kernels/choice.hpp) are read and read back: their names, and the keys that each has of its own.
 #pragma once
 #include <algorithm>
+#include <array>
 
 #include "kernels/choice.hpp"
 #include "src/scene/diagnostics.hpp"
@@ -13,7 +14,8 @@ template <class Choice>
 std::vector<std::pair<std::string, Choice>> named(const std::vector<Choice>& choices) {
   std::vector<std::pair<std::string, Choice>> all;
   for (const Choice& choice : choices)
-    if (all.empty() || all.back().first != name_of(choice)) all.emplace_back(name_of(choice), choice);
+    if (std::none_of(all.begin(), all.end(), [&](const auto& known) { return known.first == name_of(choice); }))
+      all.emplace_back(name_of(choice), choice);
   return all;
 }
 
@@ -41,7 +43,9 @@ struct KeyNames {
   void word(const std::string& key, const std::array<std::string, 2>&, bool&) { names.push_back(key); }
   void level() { names.insert(names.end(), {"level", "series"}); }
   void in_time(const std::string& key, const std::string&) { names.push_back(key); }
-  void one_in_time(const std::array<std::string, 2>& keys, const std::string&, bool&) { names.insert(names.end(), keys.begin(), keys.end()); }
+  void one_in_time(const std::array<std::string, 2>& keys, const std::string&, bool&) {
+    names.insert(names.end(), keys.begin(), keys.end());
+  }
   void if_given(const std::string& key, const std::string&, bool&) { names.push_back(key); }
 };
 
@@ -51,7 +55,9 @@ struct KeyText {
   std::string text;
   void factor(const std::string&, double& value);
   void pair(const std::string&, const std::array<std::string, 2>& names, double& first, double& second);
-  void word(const std::string&, const std::array<std::string, 2>& words, bool& second) { text += words[second ? 1 : 0]; }
+  void word(const std::string&, const std::array<std::string, 2>& words, bool& second) {
+    text += " by " + words[second ? 1 : 0];
+  }
   void level() {}
   void in_time(const std::string&, const std::string&) {}
   void one_in_time(const std::array<std::string, 2>&, const std::string&, bool&) {}
@@ -77,8 +83,8 @@ std::vector<std::string> keys_of(Choice choice) {
 template <class Choice, class Has>
 std::string owners(Has has) {
   std::vector<std::string> names;
-  for (const auto& [name, choice] : named<Choice>())
-    if (has(choice)) names.push_back(name);
+  for (const Choice& choice : alternatives<Choice>())
+    if (has(choice) && std::count(names.begin(), names.end(), name_of(choice)) == 0) names.push_back(name_of(choice));
   return listed(names);
 }
 
@@ -92,9 +98,16 @@ bool has_key(const Choice& choice, const std::string& key) {
 template <class Choice, class Has>
 void reject(Table& table, const std::string& key, const Choice& choice, const std::string& foreign, Has has) {
   table.accept(foreign);
-  table.error(foreign, "'" + table.path_of(foreign) + "' belongs to " + owners<Choice>(has) + ", and '" + table.path_of(key) +
-                           "' is '" + name_of(choice) + "'",
-              "remove it");
+  table.error(foreign, "'" + table.path_of(foreign) + "' belongs to " + owners<Choice>(has) + ", and '" +
+                           table.path_of(key) + "' is '" + name_of(choice) + "'",
+              "remove it, or use " + owners<Choice>(has));
+}
+
+// Makes the keys of every alternative known: where nobody knows which one is meant.
+template <class Choice>
+void accept_keys(Table& table) {
+  for (const Choice& choice : alternatives<Choice>())
+    for (const std::string& key : keys_of(choice)) table.accept(key);
 }
 
 // The keys that `choice`, the value of `key`, has are read; those that only others have are errors.

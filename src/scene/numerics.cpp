@@ -37,9 +37,9 @@ std::optional<double> read_duration(Table& section, const std::string& key, cons
   if (!section.has_table(key)) return section.number(key, "s").at_least(0).optional();
   Table duration = section.table(key);
   Value<double> periods = duration.number("periods");
-  periods.positive().required();
+  const double count = periods.positive().required(1);
   const double period = scene.compare.exact ? scene.compare.exact->period() : 0;
-  if (period > 0) return periods.otherwise(1) * period;
+  if (period > 0) return count * period;
   if (section.context().exact_failed) return 0;
   periods.fail("'" + duration.path_of("periods") + "' needs a periodic exact solution",
                "name one under [compare], or give the duration in seconds");

@@ -95,12 +95,9 @@ toml::table parse(const std::string& text, Diagnostics& diagnostics) {
   return {};
 }
 
-struct Noted {
-  Scene scene;
-  std::vector<KeyNote> keys;
-};
-
-Noted read_noting(const std::string& text, const std::string& file, const std::vector<std::string>& overrides) {
+// keys: takes the notes of the keys asked for, unless null.
+Scene read_noting(const std::string& text, const std::string& file, const std::vector<std::string>& overrides,
+                  std::vector<KeyNote>* keys) {
   Diagnostics diagnostics;
   diagnostics.add_source(file, text);
   toml::table tree = parse(text, diagnostics);
@@ -110,7 +107,7 @@ Noted read_noting(const std::string& text, const std::string& file, const std::v
   Scene scene;
   scene.file = file;
   scene.name = std::filesystem::path(file).stem().string();
-  Context context{diagnostics, std::filesystem::absolute(file).parent_path(), scene.gravity, false, {}, {}};
+  Context context{diagnostics, std::filesystem::absolute(file).parent_path(), scene.gravity, false, {}, keys};
   {
     Table root(context, &tree, "", Place{});
     read_sections(root, scene);
@@ -121,7 +118,7 @@ Noted read_noting(const std::string& text, const std::string& file, const std::v
   if (!tree.get_as<toml::table>("scene")) tree.insert_or_assign("scene", toml::table{});
   tree.get_as<toml::table>("scene")->insert("name", scene.name);
   scene.text = serialise(tree);
-  return {std::move(scene), std::move(context.keys)};
+  return scene;
 }
 
 std::string text_of(const std::string& path) {
@@ -135,7 +132,7 @@ std::string text_of(const std::string& path) {
 
 Scene read_scene_text(const std::string& text, const std::string& file,
                       const std::vector<std::string>& overrides) {
-  return read_noting(text, file, overrides).scene;
+  return read_noting(text, file, overrides, nullptr);
 }
 
 Scene read_scene(const std::string& path, const std::vector<std::string>& overrides) {
@@ -143,7 +140,9 @@ Scene read_scene(const std::string& path, const std::vector<std::string>& overri
 }
 
 std::vector<KeyNote> known_keys(const std::string& path, const std::vector<std::string>& overrides) {
-  return read_noting(text_of(path), path, overrides).keys;
+  std::vector<KeyNote> keys;
+  read_noting(text_of(path), path, overrides, &keys);
+  return keys;
 }
 
 }  // namespace freshet

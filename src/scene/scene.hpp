@@ -76,7 +76,7 @@ struct OpenBoundary {
   // m, two points or more (no sharp bends); the water is on its left. 1-D: (x, 1), (x, 0) at the left end and (x, 0), (x, 1) at
   // the right end.
   std::vector<Point> line;
-  OpenLaw law;         // kernels/open_states.hpp: what follows time is in `imposed`
+  OpenLaw law;         // kernels/open/states.hpp: what follows time is in `imposed`
   struct Imposed {
     std::string what;  // "level"
     std::string unit;  // "m"; discharges m3/s (1-D: m2/s); velocities and discharges inwards

@@ -16,8 +16,10 @@ bool reconstructs(const AnyStabilisation& choice) {
 // The first of the alternatives of that name whose reconstruction is the one asked for.
 void read_stabilisation(Table& section, Sph& sph) {
   AnyStabilisation& chosen = sph.stabilisation;
-  chosen = section.choice("stabilise", named<AnyStabilisation>()).otherwise(chosen);
+  const auto named_one = section.choice("stabilise", named<AnyStabilisation>());
+  chosen = named_one.otherwise(chosen);
   const std::optional<bool> muscl = section.boolean("muscl").optional();
+  if (named_one.given() && !named_one.optional()) return accept_keys<AnyStabilisation>(section);
   const std::vector<AnyStabilisation> all = alternatives<AnyStabilisation>();
   const auto fits = [&](const AnyStabilisation& c) {
     return name_of(c) == name_of(chosen) && reconstructs(c) == muscl.value_or(reconstructs(c));

@@ -7,11 +7,12 @@
 
 namespace freshet::input {
 
-KeyNote& Context::note(const std::string& path, const std::string& what) {
-  auto known = std::find_if(keys.begin(), keys.end(), [&](const KeyNote& k) { return k.path == path; });
-  if (known == keys.end()) known = keys.insert(known, {path, what, "", ""});
-  if (!what.empty()) known->what = what;
-  return *known;
+KeyNote* Context::note(const std::string& path, const std::string& what) {
+  if (!keys) return nullptr;
+  auto known = std::find_if(keys->begin(), keys->end(), [&](const KeyNote& k) { return k.path == path; });
+  if (known == keys->end()) known = keys->insert(known, {path, what, "", ""});
+  if (!what.empty()) known->what = what, known->rule.clear();
+  return &*known;
 }
 
 template class Value<double>;

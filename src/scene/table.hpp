@@ -23,7 +23,7 @@ namespace freshet::input {
 
 // What all tables of one scene share.
 struct Context {
-  KeyNote& note(const std::string& path, const std::string& what);  // of a key; the same one again for the same path
+  KeyNote* note(const std::string& path, const std::string& what);  // of a key, where `keys` are wanted; else null
 
   Diagnostics& diagnostics;
   std::filesystem::path directory;  // of the scene file: relative paths start here
@@ -31,7 +31,7 @@ struct Context {
   bool exact_failed =
       false;  // [compare] names an exact solution, with errors: no errors follow from its absence
   std::vector<std::string> notes;  // what the reader decided and the user may want to know
-  std::vector<KeyNote> keys;       // in the order in which they were asked for
+  std::vector<KeyNote>* keys = nullptr;  // takes what the reader asks for, in its order, where somebody wants to know
 };
 
 using freshet::shown;
@@ -71,7 +71,7 @@ class Value {
 
   template <class Test>
   Value& check(Test holds, const std::string& rule, const std::string& help = "") {
-    note().rule += (note().rule.empty() ? "" : ", ") + rule;
+    if (KeyNote* it = note()) it->rule += (it->rule.empty() ? "" : ", ") + rule;
     if (value_ && !holds(*value_))
       fail("'" + slot_.path + "' is " + shown(*value_) + "; it must be " + rule, help);
     return *this;
@@ -93,18 +93,18 @@ class Value {
   }
 
   T required(T stand_in = {}) {  // absent: error
-    note().standard = "required";
+    if (KeyNote* it = note()) it->standard = "required";
     if (!slot_.given) slot_.report_missing();
     return value_.value_or(std::move(stand_in));
   }
   T otherwise(T fallback) const {
-    note().standard = word_ ? word_(fallback) : written(fallback);
+    if (KeyNote* it = note()) it->standard = word_ ? word_(fallback) : written(fallback);
     return value_.value_or(std::move(fallback));
   }
   const std::optional<T>& optional() const { return value_; }
   bool given() const { return slot_.given; }  // named in the scene, though perhaps with an error
   Place place() const { return slot_.place; }
-  KeyNote& note() const { return slot_.context->note(slot_.path, ""); }
+  KeyNote* note() const { return slot_.context->note(slot_.path, ""); }
   Value& worded(std::function<std::string(const T&)> word) {  // how the key's note says a value
     word_ = std::move(word);
     return *this;

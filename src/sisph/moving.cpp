@@ -2,22 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "cellgrid/assign.hpp"
 #include "cellgrid/launch.hpp"
 #include "src/errors.hpp"
+#include "src/text.hpp"
 
 namespace freshet::sisph {
 namespace {
 
 constexpr double unbounded = 1e300;
-
-std::string text(double value) {
-  char out[32];
-  std::snprintf(out, sizeof(out), "%.4g", value);
-  return out;
-}
 
 }  // namespace
 
@@ -127,17 +121,17 @@ void LagrangianSph<D>::shorten(double t, double dt, const MovingReport& r) {
   ++shortened_;
   if (allowed_ >= least * Base::longest_step()) return;
   const std::string last =
-      " of steps shortened to " + text(dt) + " s (" + text(Base::longest_step()) + " s were asked for) ";
-  const std::string when = "at t = " + text(t) + " s ";
+      " of steps shortened to " + brief(dt, 4) + " s (" + brief(Base::longest_step(), 4) + " s were asked for) ";
+  const std::string when = "at t = " + brief(t, 4) + " s ";
   if (!r.solved)
-    throw Diverged("the free surface did not settle: " + when + "the linear system" + last + "was left with " + text(r.residual) +
-                   " of its right-hand side (sisph.cg.tolerance = " + text(scene_.sisph.cg.tolerance) +
+    throw Diverged("the free surface did not settle: " + when + "the linear system" + last + "was left with " + brief(r.residual, 4) +
+                   " of its right-hand side (sisph.cg.tolerance = " + brief(scene_.sisph.cg.tolerance, 4) +
                    ")\n  help: particles have lost their order or their neighbours: sisph.formulation = \"at-rest\", or a wider "
                    "sisph.smoothing, or sisph.cg.max above " + std::to_string(scene_.sisph.cg.most));
   if (!(r.least_depth > 0))
     throw Diverged("a particle fell dry " + when + "with the last" + last +
                    "and particles that move need water everywhere\n  help: sisph.formulation = \"at-rest\"");
-  throw Diverged("neighbours part too fast: " + when + "with " + text(r.jump) + " m/s at the end" + last +
+  throw Diverged("neighbours part too fast: " + when + "with " + brief(r.jump, 4) + " m/s at the end" + last +
                  "\n  help: sisph.formulation = \"at-rest\", a larger sisph.theta, or a wider sisph.smoothing");
 }
 

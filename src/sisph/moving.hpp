@@ -1,4 +1,4 @@
-// Formulation L of semi-implicit SPH: particles that move with the water (kernels/sisph/moving.hpp). A step is
+// Formulation L of semi-implicit SPH: particles that move with the water (kernels/sisph/moving/moving.hpp). A step is
 // taken in as many parts as it takes for each to hold.
 #pragma once
 #include "kernels/sisph/moving/moving.hpp"

@@ -1,5 +1,6 @@
 // Formulation E's open boundaries: who stands behind them, and what they hold there.
 #include "src/scene/open_law.hpp"
+#include "src/scene/place.hpp"
 #include "src/sisph/at_rest.hpp"
 #include "src/sisph/beside.hpp"
 
@@ -9,13 +10,14 @@ template <int D>
 std::vector<RimPlace<D>> EulerianSph<D>::rim_places() const {
   const auto kind = on_host(particles_.integer("kind"));
   const std::vector<Point> at = Base::places();
-  const double dx = scene_.water.spacing;
   std::vector<RimPlace<D>> places;
   for (int i = 0; i < particles_.size(); ++i) {
     const Beside side = kind(i) > 0 ? beside(scene_, at[static_cast<std::size_t>(i)]) : Beside{};
     if (side.opening < 0) continue;
-    const double width = side.outside < dx ? dx : 0.0;
-    places.push_back({i, side.opening, side.outside, D == 2 ? width : width / dx, to_vec<D>(side.n)});
+    const int across = D == 2 && side.n[1] != 0 ? 1 : 0;
+    const double width = D == 2 ? cell_width(scene_, 1 - across) : 1.0;  // m
+    const bool first_row = side.outside < cell_width(scene_, across);
+    places.push_back({i, side.opening, side.outside, first_row ? width : 0.0, to_vec<D>(side.n)});
   }
   return places;
 }

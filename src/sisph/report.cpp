@@ -2,6 +2,7 @@
 #include "kernels/choice.hpp"
 #include "src/sisph/at_rest.hpp"
 #include "src/sisph/moving.hpp"
+#include "src/text.hpp"
 
 namespace freshet::sisph {
 namespace {
@@ -25,8 +26,10 @@ template <int D>
 Totals EulerianSph<D>::totals() const {
   Totals totals = Base::totals();
   if (!open_) return totals;
-  const std::vector<double> through = open_->through();
-  totals.flux = through[0], totals.flux_gross = through[1];
+  // Where other sides are held, too, what passes there is counted, and no law tells how much it should be.
+  const bool others = held_ > open_->size();
+  const OpenFlux flux = others ? OpenFlux{unknown, unknown} : open_->flux();
+  totals.flux = flux.net, totals.flux_gross = flux.gross;
   return totals;
 }
 
@@ -103,7 +106,7 @@ ScalarState SemiImplicitSph<D>::scalars() const {
 template <int D>
 ScalarState EulerianSph<D>::scalars() const {
   ScalarState state = Base::scalars();
-  if (open_) state["rim"] = open_->means(), state["rim_through"] = open_->through();
+  if (open_) state["rim"] = open_->means(), state["rim_flux"] = open_->fluxes();
   state["mesh"] = {surface_.meshed() ? 1.0 : 0.0};
   return state;
 }
@@ -117,21 +120,21 @@ ScalarState LagrangianSph<D>::scalars() const {
 
 template <int D>
 void SemiImplicitSph<D>::restore(const ScalarState& state) {
-  passed_.inflow = state.at("passed")[0];
-  passed_.outflow = state.at("passed")[1];
+  passed_.inflow = state.at("passed").at(0);
+  passed_.outflow = state.at("passed").at(1);
   const std::vector<double>& solver = state.at("solver");
-  report_.passes = static_cast<long>(solver[0]);
-  report_.solves = static_cast<long>(solver[1]);
-  report_.iterations = static_cast<long>(solver[2]);
-  report_.unsettled = static_cast<long>(solver[3]);
-  report_.newton_max = static_cast<int>(solver[4]);
+  report_.passes = static_cast<long>(solver.at(0));
+  report_.solves = static_cast<long>(solver.at(1));
+  report_.iterations = static_cast<long>(solver.at(2));
+  report_.unsettled = static_cast<long>(solver.at(3));
+  report_.newton_max = static_cast<int>(solver.at(4));
 }
 
 template <int D>
 void EulerianSph<D>::restore(const ScalarState& state) {
   Base::restore(state);
-  surface_.set_meshed(state.at("mesh")[0] > 0);
-  if (open_) open_->set_means(state.at("rim")), open_->set_through(state.at("rim_through"));
+  surface_.set_meshed(state.at("mesh").at(0) > 0);
+  if (open_) open_->set_means(state.at("rim")), open_->set_fluxes(state.at("rim_flux"));
   Base::measure_speeds();
 }
 
@@ -139,11 +142,11 @@ template <int D>
 void LagrangianSph<D>::restore(const ScalarState& state) {
   Base::restore(state);
   const std::vector<double>& moving = state.at("moving");
-  moving_.set_jump(moving[0]);
-  last_dt_ = moving[1];
-  moving_.set_meshed(moving[2] > 0);
-  allowed_ = moving[3];
-  shortened_ = static_cast<long>(moving[4]);
+  moving_.set_jump(moving.at(0));
+  last_dt_ = moving.at(1);
+  moving_.set_meshed(moving.at(2) > 0);
+  allowed_ = moving.at(3);
+  shortened_ = static_cast<long>(moving.at(4));
   settle_order();
   Base::measure_speeds();
 }

@@ -22,7 +22,6 @@ std::optional<double> lake_level(const Scene& scene) {
 
 Scene still_water(const Scene& scene, bool lake) {
   Scene still = scene;
-  still.water.start = Water::Start::cells;
   if (!lake) {
     still.bed = {};
     still.water.surface = {};
@@ -32,7 +31,10 @@ Scene still_water(const Scene& scene, bool lake) {
   still.sph.newton_tolerance = 1e-20;  // where the particles come to rest hangs on the tenth digit of their pressures
   still.manning.reset();
   still.sph.well_balanced = false;
-  still.sph.stabilisation = LaxFriedrichs{};
+  LaxFriedrichs plain;
+  if (const auto* muscl = std::get_if<LaxFriedrichsMuscl>(&scene.sph.stabilisation)) plain.strength = muscl->strength;
+  if (const auto* same = std::get_if<LaxFriedrichs>(&scene.sph.stabilisation)) plain = *same;
+  still.sph.stabilisation = plain;
   return still;
 }
 

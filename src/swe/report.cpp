@@ -1,13 +1,9 @@
 // What the run loop asks of the state: totals, features, restart scalars.
 #include "cellgrid/launch.hpp"
 #include "kernels/choice.hpp"
-#include "src/errors.hpp"
 #include "src/swe/solver.hpp"
 
 namespace freshet::swe {
-namespace {
-
-}  // namespace
 
 template <int D>
 Totals ExplicitSph<D>::totals() const {
@@ -82,9 +78,9 @@ ScalarState ExplicitSph<D>::scalars() const {
 
 template <int D>
 void ExplicitSph<D>::restore(const ScalarState& state) {
-  crossing_time_ = state.at("crossing_time")[0];
-  next_id_ = static_cast<int>(state.at("next_id")[0]);
-  report_.rebuilds = static_cast<long>(state.at("rebuilds")[0]);
+  crossing_time_ = state.at("crossing_time").at(0);
+  next_id_ = static_cast<int>(state.at("next_id").at(0));
+  report_.rebuilds = static_cast<long>(state.at("rebuilds").at(0));
   for (size_t k = 0; k < boundaries_.size(); ++k) boundaries_[k].restore(state.at("boundary." + std::to_string(k)));
   if (refinement_) refinement_->restore(state.at("refinement"));
   const Particles<D> p = bind();

@@ -43,14 +43,18 @@ Choice pick(const std::vector<Choice>& choices, const std::string& word) {
   throw std::invalid_argument("no choice is called " + word);
 }
 
-// What the law of an open boundary imposes; nothing where it knows no such quantity.
+// What the law of an open boundary imposes.
 inline void impose(OpenBoundary& boundary, const std::string& what, Series series) {
-  if (!input::has_key(boundary.law, what)) return;
+  if (!input::has_key(boundary.law, what)) throw std::invalid_argument("its law imposes no " + what);
   if (auto* state = std::get_if<ImposedState>(&boundary.law); state && what != "velocity") state->above_bed = what == "depth";
   if (auto* open = std::get_if<Transmissive>(&boundary.law)) open->levelled = !series.t.empty();
   for (OpenBoundary::Imposed& i : boundary.imposed)
     if (i.what == what) return void(i.series = std::move(series));
   boundary.imposed.insert(what == "velocity" ? boundary.imposed.end() : boundary.imposed.begin(), {what, "", std::move(series)});
+}
+
+inline void impose_if_known(OpenBoundary& boundary, const std::string& what, Series series) {
+  if (input::has_key(boundary.law, what)) impose(boundary, what, std::move(series));
 }
 
 // An open boundary at x = x0 or x = x1 of the domain, all over it.
@@ -72,7 +76,7 @@ inline void open_left(Scene& scene, const OpenLaw& law, Series level) {
   const auto [x1, y1] = scene.domain.high;
   const bool plane = scene.domain.dimension == 2;
   scene.boundaries = {open_end(scene, true, law)};
-  test::impose(scene.boundaries[0], "level", std::move(level));
+  impose_if_known(scene.boundaries[0], "level", std::move(level));
   scene.walls = {plane ? Wall{{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}} : Wall{{{x1, 0}}}};
 }
 

@@ -37,7 +37,6 @@ Fluid lattice(int dimension, double dx, double width, double depth) {
   fluid.u.assign(size, 0);
   fluid.v.assign(size, 0);
   fluid.depth.assign(size, depth);
-  fluid.bed.assign(size, 0);
   fluid.mass.assign(size, depth * (dimension == 2 ? dx * dx : dx));
   fluid.h.assign(size, 1.2 * dx);
   fluid.id.assign(size, 0);

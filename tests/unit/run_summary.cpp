@@ -4,6 +4,8 @@
 #include "src/io/json.hpp"
 #include "src/reference/exact.hpp"
 #include "src/run/driver.hpp"
+#include "src/run/record/gauges.hpp"
+#include "src/text.hpp"
 #include "tests/support/fake_method.hpp"
 #include "tests/support/scratch.hpp"
 
@@ -63,6 +65,13 @@ TEST_CASE("observers write their promised keys, errors only where the scene name
     CHECK(text.find('"' + std::string(key) + "\": ") != std::string::npos);
   }
   CHECK(text.find("\"flux_error\": null") != std::string::npos);
+  // The gauge's measured level is 1 m; the number under the key is the one of its statistics.
+  test::FakeMethod method(scene);
+  Driver driver(scene, method, {scratch.path()});
+  driver.begin();
+  driver.run();
+  const std::vector<GaugeResult> gauges = find<GaugeRecorder>(driver.observers())->results();
+  CHECK(text.find("\"rmse\": " + shortest(gauges.at(0).rmse) + ",") != std::string::npos);
   CHECK(text.find("errors") == std::string::npos);
   scene.compare.exact = stoker(2, 1, 0, 9.81);
   const std::string compared = text_of(scene);

@@ -46,6 +46,11 @@ TEST_CASE("boundary types read what they impose") {
   CHECK(std::get<ImposedLevel>(boundary("type = \"elevation\"\nlevel = { times = [0, 20], values = [1, 2] }\n").at(10)).level == 1.5);
 }
 
+TEST_CASE("a boundary without a line is an error beside any wall") {
+  const std::string wall = "[[wall]]\nline = [[0, 0], [10, 0]]\n";
+  CHECK_THAT(error("type = \"transmissive\"\n" + wall), Catch::Contains("one of 'line' or 'side' is missing"));
+}
+
 TEST_CASE("a boundary may follow a bent line") {
   const Scene scene = read_text(square + "[[boundary]]\nline = [[0, 4], [0, 0], [4, 0]]\ntype = \"transmissive\"\n"
                                          "[[wall]]\nline = \"box\"\n");

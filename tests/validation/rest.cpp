@@ -64,7 +64,8 @@ TEST_CASE("water around an island stays at rest", "[long]") {
 }
 
 TEST_CASE("water in a parabola stays at rest up to its shores", "[long]") {
-  check_basin({"rest_parabola", 0.02, 1.0, 80});  // printed: < 0.02 at the finest spacing, order below 1
+  // Printed: < 0.02 at the finest spacing, order below 1. First order is the least that is claimed here; fitted 1.45.
+  check_basin({"rest_parabola", 0.02, 1.0, 80});
 }
 
 TEST_CASE("water in a parabola between walls stays at rest", "[long]") {

@@ -1,4 +1,4 @@
-// How a step guesses the pressure before it projects (kernels/fpm/projection.hpp).
+// How a step guesses the pressure before it projects (kernels/fpm/pressure/projection.hpp).
 #pragma once
 #include <vector>
 

@@ -13,8 +13,6 @@ KOKKOS_FORCEINLINE_FUNCTION Vec<double, 1> clamped(const Vec<double, 1>& p, cons
 KOKKOS_FORCEINLINE_FUNCTION Vec<double, 2> clamped(const Vec<double, 2>& p, const Vec<double, 2>& low, const Vec<double, 2>& high) {
   return {clamp(p.x, low.x, high.x), clamp(p.y, low.y, high.y)};
 }
-KOKKOS_FORCEINLINE_FUNCTION double across(const Vec<double, 1>&) { return 0; }
-KOKKOS_FORCEINLINE_FUNCTION double across(const Vec<double, 2>& p) { return p.y; }
 
 Field<int> integers(const std::string& label, int n) { return Field<int>(label, static_cast<size_t>(n)); }
 
@@ -39,7 +37,7 @@ Field<int> Followers<D>::leaders(int particles, const Origin& start) const {
         double least = far * far;
         int nearest = -1;
         if (kind(i) > 0)
-          rows.for_each_run(side.x, side.x, across(side), across(side), far, [&](int begin, int end) {
+          rows.for_each_run(side.x, side.x, y_of(side), y_of(side), far, [&](int begin, int end) {
             for (int j = begin; j < end; ++j) {
               const Vec<double, D> d = at(x, j) - side;
               if (kind(j) > 0 || !(dot(d, d) < least)) continue;

@@ -90,13 +90,13 @@ OpenRim<D>::OpenRim(std::vector<LawInTime> laws, const std::vector<RimPlace<D>>&
       laws_(std::move(laws), records(places, traced), traced.gravity, traced.spacing, D == 1),
       velocity_(vectors(places.size(), Vec<double, D>{})),
       foot_depth_("sisph.rim_foot_depth", places.size()), foot_out_("sisph.rim_foot_out", places.size()),
-      depth_("sisph.rim_depth", places.size()), foot_v_(vectors(places.size(), Vec<double, D>{})), through_("sisph.rim_through", 4) {
+      depth_("sisph.rim_depth", places.size()), foot_v_(vectors(places.size(), Vec<double, D>{})), flux_("sisph.rim_flux", 2) {
   std::vector<int> particle;
   std::vector<double> across, along, width;
   for (const RimPlace<D>& p : places) {
     particle.push_back(p.particle);
     across.push_back(p.n.x);
-    along.push_back(up(p.n));
+    along.push_back(y_of(p.n));
     width.push_back(p.width);
   }
   particle_ = on_device("sisph.rim_particle", particle);
@@ -161,31 +161,41 @@ void OpenRim<D>::set_end(const VecField<double, D>& end) const {
   launch("sisph::rim_end", Range(0, count_), KOKKOS_LAMBDA(int k) { put(to, particle(k), at(next, k)); });
 }
 
-// One place after the other, as sums may not depend on the threads.
+// One place after the other: a line has few, and the host need not wait for a sum.
 template <int D>
-void OpenRim<D>::account(double dt) const {
-  const Field<double> width = width_, depth = depth_, out = foot_out_, through = through_;
+void OpenRim<D>::account(double dt) {
+  const Field<double> width = width_, depth = depth_, out = foot_out_;
+  const auto flux = flux_;
   const int places = count_;
-  launch("sisph::rim_through", Range(0, 1), KOKKOS_LAMBDA(int) {
-        double net = 0, gross = 0;
+  const double before = started_ ? 0.5 * dt : 0.0, now = dt - before;
+  launch("sisph::rim_flux", Range(0, 1), KOKKOS_LAMBDA(int) {
+        OpenFlux rate;
         for (int k = 0; k < places; ++k) {
           const double q = -width(k) * depth(k) * out(k);
-          net += q, gross += ::fabs(q);
+          rate.net += q, rate.gross += ::fabs(q);
         }
-        through(0) += 0.5 * dt * (through(2) + net), through(1) += 0.5 * dt * (through(3) + gross);
-        through(2) = net, through(3) = gross;
+        flux(0).net += before * flux(1).net + now * rate.net;
+        flux(0).gross += before * flux(1).gross + now * rate.gross;
+        flux(1) = rate;
       });
+  started_ = true;
 }
 
 template <int D>
-std::vector<double> OpenRim<D>::through() const {
-  const auto all = on_host(through_);
-  return {all.data(), all.data() + all.extent(0)};
+OpenFlux OpenRim<D>::flux() const {
+  return on_host(flux_)(0);
 }
 
 template <int D>
-void OpenRim<D>::set_through(const std::vector<double>& through) {
-  through_ = on_device("sisph.rim_through", through);
+std::vector<double> OpenRim<D>::fluxes() const {
+  const auto f = on_host(flux_);
+  return {f(0).net, f(0).gross, f(1).net, f(1).gross, started_ ? 1.0 : 0.0};
+}
+
+template <int D>
+void OpenRim<D>::set_fluxes(const std::vector<double>& f) {
+  flux_ = on_device("sisph.rim_flux", std::vector<OpenFlux>{{f.at(0), f.at(1)}, {f.at(2), f.at(3)}});
+  started_ = f.at(4) > 0;
 }
 
 template class OpenRim<1>;

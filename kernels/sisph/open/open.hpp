@@ -54,18 +54,16 @@ class OpenRim {
   // Into the velocity before the pressure: theta (v' + impulse slope) + (1 - theta) v.
   void set_before(const RimPush<D>& push, const VecField<double, D>& before) const;
   void set_end(const VecField<double, D>& end) const;
-  // Adds what the laws' states carry through the lines in a step, depth x inward velocity x width, as a trapezium.
-  void account(double dt) const;
+  // Adds what the laws' states carry through the lines in a step: a trapezium, a rectangle in the first one.
+  void account(double dt);
+  OpenFlux flux() const;  // since t = 0: what the water that crosses is held against
   int size() const { return count_; }
 
-  // m3 since t = 0, inwards and of its size, and both per second at n; the first two are what the water that
-  // crosses is held against. Part of the restart state.
-  std::vector<double> through() const;
-  void set_through(const std::vector<double>& through);
-
-  // Slow means of v.n and c at the feet: part of the restart state.
+  // The restart state: slow means of v.n and c at the feet; the flux since t = 0 and that of the last step's end.
   std::vector<double> means() const { return laws_.means(); }
   void set_means(const std::vector<double>& means) { laws_.set_means(means); }
+  std::vector<double> fluxes() const;
+  void set_fluxes(const std::vector<double>& fluxes);
 
   // Part of find().
   void turn_velocities();
@@ -77,7 +75,9 @@ class OpenRim {
   VecField<double, D> n_, velocity_;             // velocity_: at n+1
   Field<double> foot_depth_, foot_out_, depth_;  // of the foot: depth, v.n with sources; depth_: at n+1
   VecField<double, D> foot_v_;
-  Field<double> width_, through_;                // m, of the line; as through() has them
+  Field<double> width_;                          // m, of the line
+  Kokkos::View<OpenFlux*, Memory> flux_;         // since t = 0; of the last step's end, m3/s
+  bool started_ = false;                         // there was a step
 };
 
 }  // namespace freshet::sisph

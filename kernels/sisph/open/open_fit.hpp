@@ -6,8 +6,6 @@
 namespace freshet::sisph {
 namespace {
 
-KOKKOS_FORCEINLINE_FUNCTION double up(const Vec<double, 1>&) { return 0; }
-KOKKOS_FORCEINLINE_FUNCTION double up(const Vec<double, 2>& a) { return a.y; }
 
 template <int D>
 struct Found {
@@ -33,7 +31,7 @@ struct OpenFit {
   KOKKOS_FUNCTION void for_each(const Vec<double, D>& place, const Visit& visit) const {
     constexpr double reach = 2.6;
     const double far = reach * w.spacing, per = 1 / w.spacing;
-    w.rows.for_each_run(place.x, place.x, up(place), up(place), far, [&](int begin, int end) {
+    w.rows.for_each_run(place.x, place.x, y_of(place), y_of(place), far, [&](int begin, int end) {
       for (int j = begin; j < end; ++j) {
         const Vec<double, D> d = per * (at(w.x, j) - place);
         const double left = 1 - dot(d, d) / (reach * reach);

@@ -1,4 +1,4 @@
-// How the particles at rest carry momentum (kernels/sisph/semi_lagrangian.hpp, mass_flux.hpp, conservative.hpp).
+// How the particles at rest carry momentum (semi_lagrangian.hpp, mass_flux.hpp, conservative.hpp).
 #pragma once
 #include <vector>
 

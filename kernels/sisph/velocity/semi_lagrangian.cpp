@@ -153,8 +153,6 @@ struct Fit {
   }
 };
 
-KOKKOS_FORCEINLINE_FUNCTION double y_of(const Vec<double, 1>&) { return 0; }
-KOKKOS_FORCEINLINE_FUNCTION double y_of(const Vec<double, 2>& p) { return p.y; }
 
 template <int D>
 struct Trace {

@@ -11,7 +11,6 @@ namespace {
 
 constexpr double bend = 0.5;             // rad: turns towards the water that are less do not end a chain
 constexpr double right_angle = 0.01;     // rad, tolerance
-constexpr double half_pi = 1.57079632679489662;
 
 double size_of(const std::vector<Polyline>& lines) {
   double size = 0;
@@ -57,7 +56,7 @@ bool ends_chain(const Point& a, const Point& b, const Point& c, Cut& cut) {
   const Piece s = piece_between(a, b), t = piece_between(b, c);
   const double angle = turn(s.tangent, t.tangent);
   if (angle < bend) return false;
-  if (std::abs(angle - half_pi) < right_angle)
+  if (std::abs(angle - 0.5 * pi) < right_angle)
     cut.corners.push_back({s.b, {s.normal, t.normal}});
   else
     ++cut.slanting;

@@ -74,8 +74,6 @@ template <int D>
 VecField<double, D> place_images(int particles, const PairRequest<D>& request, const MirrorWalls<D>& walls, ImageLists<D>& lists);
 
 namespace detail {
-KOKKOS_FORCEINLINE_FUNCTION double second(const Vec<double, 1>&) { return 0; }
-KOKKOS_FORCEINLINE_FUNCTION double second(const Vec<double, 2>& a) { return a.y; }
 KOKKOS_FORCEINLINE_FUNCTION Sym<double, 1> mirror(double, double, Vec<double, 1>) { return {-1.0}; }
 KOKKOS_FORCEINLINE_FUNCTION Sym<double, 2> mirror(double mx, double my, Vec<double, 2>) {
   return {1 - 2 * mx * mx, -2 * mx * my, 1 - 2 * my * my};
@@ -139,7 +137,7 @@ template <class See>
 KOKKOS_FORCEINLINE_FUNCTION void MirrorWalls<D>::for_each_image(const Vec<double, D>& xi, const Vec<double, D>& xj,
                                                                 double support, const See& see) const {
   const Vec<double, D> middle = 0.5 * (xi + xj), like{};
-  const Vec<double, 2> place{middle.x, detail::second(middle)};
+  const Vec<double, 2> place{middle.x, y_of(middle)};
   const double limit = support * support;
   const Box near = box_around(middle, 0.5 * (1 + 1e-6) * support);
   for (int chain = 0; chain >= 0;) {

@@ -15,7 +15,7 @@ struct WallPairs {
   // An image is further away than the wall; the largest h around counts, so that both sides of a pair agree.
   KOKKOS_INLINE_FUNCTION bool near_wall(int i) const {
     const Vec<double, D> x = at(nearby.x, i);
-    const double y = detail::second(x), most = nearby.rows.largest_h(x.x, x.x, y, y);
+    const double y = y_of(x), most = nearby.rows.largest_h(x.x, x.x, y, y);
     return walls.near(x, nearby.half * (nearby.h(i) + most));
   }
 

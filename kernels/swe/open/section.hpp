@@ -21,11 +21,6 @@ struct OpenRow {
 
 using OpenRows = Kokkos::View<OpenRow*, Memory>;
 
-// m3, time integral of depth x inward velocity (and of its size) along the line
-struct OpenFlux {
-  double net = 0, gross = 0;
-};
-
 class OpenSection {
  public:
   struct Scales {

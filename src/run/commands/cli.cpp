@@ -17,7 +17,8 @@ const char* const help_text = R"(freshet: meshless solver for free-surface flow
 usage:
   freshet run SCENE [key=value ...] [--out DIR] [--threads N] [--overwrite] [--quiet]
   freshet resume DIR [--threads N] [--quiet]     go on with a run that was stopped
-  freshet check SCENE [key=value ...] [--keys]   read the scene back: extent, particles, steps, features, or every key
+  freshet check SCENE [key=value ...] [--threads N]   read the scene back: extent, particles, steps, features
+  freshet check SCENE [key=value ...] --keys     every key that it may have: type, rule, default
   freshet profile SCENE [key=value ...] [--steps N] [--threads N] [--json]   where the time of N (200) steps goes
   freshet list                                   the cases that come with the program
   freshet points DIR [--step K] [--csv FILE]     particles of one output as x,y,z,depth,v_0,v_1 (K: the last)
@@ -111,7 +112,10 @@ const std::vector<Command>& commands() {
 int run_cli(int argc, char** argv, const Parts& parts) {
   if (argc > 0) program_name = argv[0];
   try {
-    return dispatch({argv + (argc > 0 ? 1 : 0), argv + argc}, parts);
+    const int code = dispatch({argv + (argc > 0 ? 1 : 0), argv + argc}, parts);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout))
+      throw IoError("what was printed could not be written\n  help: is the disk full, or the file closed?");
+    return code;
   } catch (const Error& error) {
     print_error(error.what());
     return static_cast<int>(error.exit());

@@ -73,8 +73,9 @@ int go(const Scene& scene, const std::string& directory, const Arguments& argume
   const auto runtime = start_kokkos(wanted_threads(scene, arguments));
   const auto method = parts.make(scene);
   if (checkpoint) {
-    read_checkpoint_fields(path_in(directory, "state.h5"), method->fields());
-    method->restore(checkpoint->method);
+    const std::string state = path_in(directory, "state.h5");
+    read_checkpoint_fields(state, method->fields());
+    look_at_checkpoint(state, [&] { method->restore(checkpoint->method); });
   }
   if (!quiet) announce(scene, *method);
   Driver driver(scene, *method, options_for(directory, quiet));
@@ -142,7 +143,8 @@ int resume_command(const Arguments& arguments, const Parts& parts) {
   }
   const Checkpoint checkpoint = read_checkpoint(state);
   const Scene scene = parts.read_again(checkpoint.scene_text, checkpoint.scene_file);
-  const double t = checkpoint.run.at("clock").at(0);
+  double t = 0;
+  look_at_checkpoint(state, [&] { t = checkpoint.run.at("clock").at(0); });
   if (t >= scene.end_time && fs::exists(path_in(directory, summary_file))) {
     if (!arguments.has("--quiet")) std::printf("the run in %s is complete: t = %g s\n", directory.c_str(), t);
     return 0;

@@ -1,5 +1,5 @@
 // freshet difference: two runs of one scene, particle by particle, from their state.h5. What two backends, compilers or numbers of
-// threads make of a scene differs by round-off, and by how much it has grown. Reads every saved real field that both hold.
+// threads make of a scene differs by round-off, and by how much it has grown. Reads every saved real field.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -9,7 +9,6 @@
 #include "src/errors.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/files.hpp"
-#include "src/io/fluid.hpp"
 #include "src/run/commands/commands.hpp"
 
 namespace freshet {
@@ -25,7 +24,7 @@ State read_state(const std::string& directory) {
   const std::string path = path_in(directory, "state.h5");
   if (!std::filesystem::exists(path)) throw SceneError(path + " is not there: 'freshet run' writes it");
   State state;
-  state.t = read_checkpoint(path).run.at("clock").at(0);
+  look_at_checkpoint(path, [&] { state.t = read_checkpoint(path).run.at("clock").at(0); });
   read_checkpoint_fields(path, state.fields);
   const auto id = on_host(state.fields.integer("id"));
   for (int i = 0; i < state.fields.size(); ++i) state.place.emplace(id(i), i);
@@ -66,6 +65,10 @@ void print_row(const NamedField<double>& field, const State& a, const NamedField
   std::printf("\n");
 }
 
+void print_lonely(const NamedField<double>& field, const std::string& directory) {
+  std::printf("%-16s %-8s only in %s\n", field.name.c_str(), field.unit.c_str(), directory.c_str());
+}
+
 }  // namespace
 
 int difference_command(const Arguments& arguments, const Parts&) {
@@ -77,7 +80,10 @@ int difference_command(const Arguments& arguments, const Parts&) {
   std::printf("%-16s %-8s %12s %12s %12s %8s\n", "field", "unit", "largest", "difference", "rms", "of id");
   for (const auto& field : a.fields.reals()) {
     if (const auto* other = b.fields.find_real(field.name)) print_row(field, a, *other, pairs);
+    else print_lonely(field, arguments.words[0]);
   }
+  for (const auto& field : b.fields.reals())
+    if (!a.fields.find_real(field.name)) print_lonely(field, arguments.words[1]);
   return 0;
 }
 

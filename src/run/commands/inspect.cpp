@@ -13,6 +13,7 @@
 #include "src/run/commands/commands.hpp"
 #include "src/scene/diagnostics.hpp"
 #include "src/scene/read.hpp"
+#include "src/text.hpp"
 
 namespace freshet {
 namespace fs = std::filesystem;
@@ -61,10 +62,12 @@ int print_keys(const std::vector<KeyNote>& keys) {
 void print_rows(std::FILE* out, const ParticleStep& step) {
   const bool flat = step.v_1.empty();
   std::fprintf(out, "x [m],y [m],z [m],depth [m],v_0 [m/s]%s\n", flat ? "" : ",v_1 [m/s]");
+  std::vector<const std::vector<double>*> columns{&step.z, &step.depth, &step.v_0};
+  if (!flat) columns.push_back(&step.v_1);
   for (std::size_t i = 0; i < step.x.size(); ++i) {
-    std::fprintf(out, "%.12g,%.12g,%.8g,%.8g,%.8g", step.x[i], step.y[i], step.z[i], step.depth[i],
-                 step.v_0[i]);
-    if (!flat) std::fprintf(out, ",%.8g", step.v_1[i]);
+    std::fprintf(out, "%.12g,%.12g", step.x[i], step.y[i]);
+    for (const auto* column : columns)  // an empty cell where the file has none
+      std::fputs(column->empty() ? "," : formatted(",%.8g", (*column)[i]).c_str(), out);
     std::fputc('\n', out);
   }
 }

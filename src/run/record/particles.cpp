@@ -18,7 +18,7 @@ void ParticleRecorder::begin(const Method& method) {
 }
 
 void ParticleRecorder::append(const Method& method, const Clock& clock) const {
-  if (!std::filesystem::exists(path_)) file_.create(scene_text_, build::version, method.fields());  // was taken away
+  if (!std::filesystem::exists(path_)) file_.create(scene_text_, build::version, method.fields());
   file_.append(static_cast<int>(times.done()), clock.t, method.fields());
 }
 
@@ -27,7 +27,10 @@ void ParticleRecorder::take(const Method& method, const Clock& clock) {
   append(method, clock);
 }
 
-void ParticleRecorder::save(Values&) const { sync_file(path_); }
+// After a resume from which somebody took the file away there is none until the next output.
+void ParticleRecorder::save(Values&) const {
+  if (std::filesystem::exists(path_)) sync_file(path_);
+}
 
 void ParticleRecorder::restore(const Values&, const Clock&) {
   if (std::filesystem::exists(path_)) file_.truncate(static_cast<int>(times.done()));

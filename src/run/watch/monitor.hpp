@@ -27,8 +27,8 @@ class Monitor : public Observer {
   void begin(const Method& method) override;
   void after_step(const Method& method, const Clock& clock) override;  // every hundredth: check_all()
   // Before output is written.
-  void take(const Method& method, const Clock& clock) override { check_all(method, clock); }
-  void finish(const Method& method, const Clock& clock) override { check_all(method, clock); }
+  void take(const Method& method, const Clock& clock) override { look(method, clock); }
+  void finish(const Method& method, const Clock& clock) override { look(method, clock); }
   void save(Values& values) const override;
   void restore(const Values& values, const Clock& clock) override;
   void report(const Method& method, const Clock& clock, Report& report) const override;
@@ -43,11 +43,14 @@ class Monitor : public Observer {
   int initial_particles() const { return initial_particles_; }  // of the fluid
 
  private:
+  void look(const Method& method, const Clock& clock);  // check_all() once a step
+
   Allowed allowed_;
   double mass_limit_;  // relative
   bool open_;          // open boundaries
   double initial_mass_ = 0;  // m3
   int initial_particles_ = 0;
+  long looked_at_ = -1;  // step
 };
 
 }  // namespace freshet

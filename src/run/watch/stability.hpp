@@ -15,6 +15,7 @@ class StabilityWatch : public Observer {
   static constexpr double most_rebuilds = 0.1;  // neighbour lists made again, per step of a span
 
   explicit StabilityWatch(const Scene& = {}) {}
+  static bool wanted(const Scene& scene) { return !scene.fpm; }  // which reports none of this
 
   void after_step(const Method& method, const Clock& clock) override { record(method.report(), clock); }
   void save(Values& values) const override;

@@ -26,7 +26,8 @@ double largest_speed(const FieldSet& fields) {
 }  // namespace
 
 void SteadinessWatch::begin(const Method& method) {
-  for (const double depth : fluid_on_host(method.fields()).depth) deepest_ = std::max(deepest_, depth);
+  const FieldSet& fields = method.fields();
+  for (const double depth : gather(fields.find_real("depth"), fluid_indices(fields))) deepest_ = std::max(deepest_, depth);
 }
 
 void SteadinessWatch::after_step(const Method& method, const Clock&) {
