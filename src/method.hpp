@@ -1,6 +1,7 @@
 // What the run loop needs of a method: the only virtual interface between solvers and the program.
 #pragma once
 #include <array>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -30,12 +31,22 @@ struct Mechanics {
   double potential = 0;              // m5/s2, of the column's middle above z = 0
 };
 
-// State at a fixed point: Shepard mean over the fluid particles within 2h. Incompressible methods: depth is what the gauge asks for.
+// Shallow water at a fixed point: Shepard mean over the fluid particles within 2h.
 struct PointState {
   double bed = 0;         // m
   double depth = 0;       // m, 0 if no particle reaches the point
   bool reached = false;   // some particle's support covers it
-  bool thin_is_dry = true;  // a value near zero means that there is no water
+};
+
+constexpr double dry_depth = 1e-4;  // m: a place with less water shows the bed's level, marked dry
+
+// What a gauge reads, in the unit of its measurand: base + value where there is water, else the base. Between two steps
+// base and value are interpolated; a value that comes out below `film` is no water.
+struct Reading {
+  double value = 0;
+  double base = 0;  // m, the bed below an elevation; else 0
+  bool wet = false;
+  double film = -std::numeric_limits<double>::infinity();
 };
 
 // How the numerics of the last step fared.
@@ -73,11 +84,13 @@ class Method {
   virtual std::map<std::string, Work> work() const { return {}; }
   // What only shallow water has; other scenes do not ask for it.
   virtual std::vector<PointState> sample(const std::vector<Point>& points) const { return std::vector<PointState>(points.size()); }
-  // What each gauge shows.
-  virtual std::vector<PointState> gauge(const std::vector<Gauge>& gauges) const {
+  // What each gauge shows; here elevations, which every method has.
+  virtual std::vector<Reading> read(const std::vector<Gauge>& gauges) const {
     std::vector<Point> points;
     for (const Gauge& g : gauges) points.push_back(g.at);
-    return sample(points);
+    std::vector<Reading> readings;
+    for (const PointState& s : sample(points)) readings.push_back({s.depth, s.bed, s.reached, dry_depth});
+    return readings;
   }
   // Raises what each shore has seen so far to the highest of its water now; nothing is copied to the host.
   virtual void raise_wet_levels(const Shores&) const {}

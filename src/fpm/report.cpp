@@ -44,29 +44,29 @@ Field<double> FinitePointset::cell_areas() const {
 }
 
 // The highest free surface above or below a point, the pressure of the flow there, how far the water reaches.
-std::vector<PointState> FinitePointset::gauge(const std::vector<Gauge>& gauges) const {
+std::vector<Reading> FinitePointset::read(const std::vector<Gauge>& gauges) const {
   const Cloud cloud = management_.cloud(points_, order_);
   const Field<int> surface = points_.integer("surface");
   const VoronoiRule& rule = management_.rule().voronoi;
-  const bool press = std::any_of(gauges.begin(), gauges.end(), [](const Gauge& g) { return g.what == Gauge::What::pressure; });
+  const bool press = std::any_of(gauges.begin(), gauges.end(),
+                                 [](const Gauge& g) { return g.what == Gauge::What::pressure; });
   const Field<double> pressure = press ? flow_pressure() : Field<double>();
   const std::vector<Probe> probes = probes_.look(scene_, gauges, cloud.near, pressure);
   auto probe = probes.begin();
-  std::vector<PointState> states;
+  const auto place = [](double where) {
+    return where > no_water ? Reading{where, 0, true} : Reading{};
+  };
+  std::vector<Reading> readings;
   for (const Gauge& g : gauges) {
-    PointState state;
-    state.thin_is_dry = false;
-    if (g.what == Gauge::What::pressure) {
-      state.reached = probe->wet != 0, state.depth = probe->pressure;
-      ++probe;
-    } else {
-      const bool front = g.what == Gauge::What::front;
-      const double place = front ? farthest_x(cloud, surface, points_.size(), rule) : highest_level(cloud, surface, points_.size(), rule, g.at[0]);
-      state.reached = place > no_water, state.depth = state.reached ? place : 0;
-    }
-    states.push_back(state);
+    using What = Gauge::What;
+    if (g.what == What::front) readings.push_back(place(farthest_x(cloud, surface, points_.size(), rule)));
+    if (g.what == What::elevation)
+      readings.push_back(place(highest_level(cloud, surface, points_.size(), rule, g.at[0])));
+    if (g.what != What::pressure) continue;
+    readings.push_back({probe->pressure, 0, probe->wet != 0});
+    ++probe;
   }
-  return states;
+  return readings;
 }
 
 std::vector<std::string> FinitePointset::features() const {

@@ -25,7 +25,7 @@ class FinitePointset : public Method {
   StepReport report() const override { return report_; }
   std::vector<std::string> features() const override;
   std::vector<std::string> notes() const override;
-  std::vector<PointState> gauge(const std::vector<Gauge>& gauges) const override;
+  std::vector<Reading> read(const std::vector<Gauge>& gauges) const override;
   ScalarState scalars() const override;
   void restore(const ScalarState& scalars) override;
 

@@ -19,7 +19,7 @@ GaugeRow parse(const std::string& line) {
   char* end = nullptr;
   row.t = std::strtod(at, &end);
   while (*end == ',') {
-    row.elevation.push_back(std::strtod(end + 1, &end));
+    row.value.push_back(std::strtod(end + 1, &end));
     row.dry.push_back(*end == ',' && std::strtol(end + 1, &end, 10) != 0);
   }
   return row;
@@ -27,14 +27,15 @@ GaugeRow parse(const std::string& line) {
 
 std::string text_of(const GaugeRow& row) {
   std::string line = shortest(row.t);
-  for (std::size_t g = 0; g < row.elevation.size(); ++g) {
-    line += ',' + shortest(row.elevation[g]) + (row.dry[g] ? ",1" : ",0");
+  for (std::size_t g = 0; g < row.value.size(); ++g) {
+    line += ',' + shortest(row.value[g]) + (row.dry[g] ? ",1" : ",0");
   }
   return line;
 }
 
-const char* title(Gauge::What what) {
-  return what == Gauge::What::pressure ? " pressure [Pa]" : what == Gauge::What::front ? " front [m]" : " elevation [m]";
+std::string title(const Gauge& gauge) {
+  const Measurand& shown = gauge.measurand();
+  return gauge.name + ' ' + shown.name + " [" + shown.unit + ']';
 }
 
 }  // namespace
@@ -43,7 +44,7 @@ void GaugeFile::create(const std::vector<Gauge>& gauges) {
   file_.open(path_, std::ios::binary | std::ios::trunc);
   std::string header = "t [s]";
   for (const auto& gauge : gauges)
-    header += ',' + csv_word(gauge.name + title(gauge.what)) + ',' + csv_word(gauge.name + " dry");
+    header += ',' + csv_word(title(gauge)) + ',' + csv_word(gauge.name + " dry");
   write(header);
 }
 
@@ -87,7 +88,7 @@ void write_measured(const std::string& path, const std::vector<Gauge>& gauges) {
   std::string text = "t [s]";
   for (std::size_t g = 0; g < measured.size(); ++g) {
     const Series& series = *measured[g]->measured;
-    text += ',' + csv_word(measured[g]->name + " [m]");
+    text += ',' + csv_word(measured[g]->name + " [" + measured[g]->measurand().unit + ']');
     for (std::size_t k = 0; k < series.t.size(); ++k) {
       auto& row = rows[series.t[k]];
       row.resize(measured.size());

@@ -1,5 +1,4 @@
-// gauges.csv: one row per gauge time with elevation [m] (or what the gauge shows) and a dry mark (1 = dry) per gauge; flushed after
-// each row. Numbers have the shortest digits that read back to the same bits. Failures are IoError.
+// gauges.csv: one row per gauge time with what each gauge shows, in its unit, and a dry mark (1 = dry); flushed after each row. Numbers have the shortest digits that read back to the same bits. Failures are IoError.
 #pragma once
 #include <fstream>
 #include <string>
@@ -11,7 +10,7 @@ namespace freshet {
 
 struct GaugeRow {
   double t = 0;                   // s
-  std::vector<double> elevation;  // m, free surface; the bed level where dry
+  std::vector<double> value;  // in the unit of each gauge's measurand; of an elevation the bed's level where dry
   std::vector<bool> dry;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <sstream>
 #include <stdexcept>
 
 #include "src/errors.hpp"
@@ -93,6 +94,23 @@ class Columns {
   mutable std::map<std::string, std::vector<double>> copied_;
 };
 
+// From "x m, z m (free surface), id 1": the word after the name.
+std::string unit_in(const std::string& units, const std::string& name) {
+  std::istringstream words(", " + units);
+  for (std::string before, word; words >> word; before = word)
+    if (!before.empty() && before.back() == ',' && word == name && words >> word)
+      return word.substr(0, word.find(','));
+  return "";
+}
+
+std::vector<std::string> in_order(std::vector<std::string> names) {
+  const std::vector<std::string> first{"x", "y", "z", "depth", "v_0", "v_1", "p"};
+  std::stable_sort(names.begin(), names.end(), [&](const std::string& a, const std::string& b) {
+    return std::find(first.begin(), first.end(), a) < std::find(first.begin(), first.end(), b);
+  });
+  return names;
+}
+
 }  // namespace
 
 void ParticleFile::create(const std::string& scene_text, const std::string& version,
@@ -157,17 +175,17 @@ ParticleStep read_particle_step(const std::string& path, int step) {
   ParticleStep read;
   read.step = step;
   read.t = group.real_attribute("TimeValue");
-  read.x = group.reals("x");
-  read.y = group.reals("y");
-  const auto held = [&](const char* name) {
-    return group.has(name) ? group.reals(name) : std::vector<double>();
-  };
-  read.z = held("z");
-  read.depth = held("depth");
-  read.v_0 = held("v_0");
-  read.v_1 = held("v_1");
-  read.id = group.integers("id");
+  const std::string units = file.open("freshet").text_attribute("units");
+  for (const std::string& name : in_order(group.names()))
+    read.columns.push_back({name, unit_in(units, name), group.reals(name)});
   return read;
+}
+
+const std::vector<double>& ParticleStep::operator[](const std::string& name) const {
+  static const std::vector<double> none;
+  for (const ParticleColumn& column : columns)
+    if (column.name == name) return column.values;
+  return none;
 }
 
 }  // namespace freshet

@@ -30,11 +30,18 @@ class ParticleFile {
   double spacing_;
 };
 
+struct ParticleColumn {
+  std::string name, unit;
+  std::vector<double> values;
+};
+
 struct ParticleStep {
   int step = 0;
   double t = 0;  // s
-  std::vector<double> x, y, z, depth, v_0, v_1;  // nothing where the file has none
-  std::vector<int> id;
+  std::vector<ParticleColumn> columns;  // x, y, z, depth, v_0, v_1, p, those of them that the file has, then the others
+
+  const std::vector<double>& operator[](const std::string& name) const;  // empty where the file has none
+  std::size_t size() const { return (*this)["x"].size(); }
 };
 
 struct StepTime {

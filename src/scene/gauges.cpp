@@ -32,6 +32,13 @@ std::array<Point, 2> transect_line(Table& section, const Scene& scene) {
   return {};
 }
 
+auto quantities() {
+  std::vector<std::pair<std::string, Gauge::What>> words;
+  for (const auto what : {Gauge::What::elevation, Gauge::What::pressure, Gauge::What::front})
+    words.emplace_back(Gauge::measurands[static_cast<std::size_t>(what)].name, what);
+  return words;
+}
+
 }  // namespace
 
 std::string shown(const Point& point, const Domain& domain) {
@@ -60,9 +67,7 @@ void read_gauge(Table& section, Scene& scene) {
   gauge.name = section.text("name").required();
   require_new_name(section, scene.gauges, gauge.name);
   using What = Gauge::What;
-  if (scene.fpm)
-    gauge.what = section.choice<What>("what", {{"elevation", What::elevation}, {"pressure", What::pressure}, {"front", What::front}})
-                     .otherwise(What::elevation);
+  if (scene.fpm) gauge.what = section.choice<What>("what", quantities()).otherwise(What::elevation);
   if (gauge.what != What::front) {
     Value<Point> at = section.point("at", scene.domain.dimension);
     gauge.at = at.required();

@@ -88,14 +88,28 @@ struct OpenBoundary {
   OpenLaw at(double time) const;
 };
 
+// What a gauge can show: its name in scenes and files, its unit there, and those of tables of errors and of peaks.
+struct Measurand {
+  const char *name, *unit;
+  struct Scale {
+    const char* unit;
+    double size;  // in units of the measurand
+  } fine, coarse;
+};
+
 struct Gauge {
   std::string name;
   Point at{};
-  // Method "fpm" only, but for elevation: pressure at the point [Pa]; front: the water's largest x [m], wherever it is.
+  // Method "fpm" only, but for elevation: pressure at the point; front: the water's largest x, wherever it is.
   enum class What { elevation, pressure, front } what = What::elevation;
-  std::optional<Series> measured;  // m, free-surface elevation, times increasing
+  std::optional<Series> measured;  // of the same measurand, times increasing
   double peak_after = 0;           // s, peaks and arrivals are taken after this time
-  double arrival_level = 0.01;     // m, first crossing of this elevation counts as arrival
+  double arrival_level = 0.01;     // in its unit; its first crossing counts as arrival
+  const Measurand& measurand() const { return measurands[static_cast<std::size_t>(what)]; }
+
+  static constexpr std::array<Measurand, 3> measurands{{{"elevation", "m", {"mm", 1e-3}, {"cm", 1e-2}},
+                                                       {"pressure", "Pa", {"Pa", 1}, {"Pa", 1}},
+                                                       {"front", "m", {"mm", 1e-3}, {"cm", 1e-2}}}};
 };
 
 struct RunUp {

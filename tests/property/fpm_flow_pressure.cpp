@@ -58,7 +58,7 @@ TEST_CASE("fpm flow pressure: what a gauge asks for changes nothing in the run")
   test::FlowRun with("fpm_lobovsky", {"water.spacing=0.03"}), without("fpm_lobovsky", {"water.spacing=0.03"});
   for (const double t : {0.1, 0.2, 0.3}) {
     with.run_to(t), without.run_to(t);
-    CHECK(with.solver.gauge(with.scene.gauges).size() == with.scene.gauges.size());
+    CHECK(with.solver.read(with.scene.gauges).size() == with.scene.gauges.size());
   }
   with.run_to(0.35), without.run_to(0.35);
   const auto a = with.points(), b = without.points();

@@ -121,7 +121,7 @@ void require_same_results(const test::Scratch& a, const test::Scratch& b) {
       return read_particle_step(s / "particles.h5part", step.step);
     };
     CHECK(
-        (of(a).x == of(b).x && of(a).depth == of(b).depth && of(a).v_0 == of(b).v_0 && of(a).id == of(b).id));
+        (of(a)["x"] == of(b)["x"] && of(a)["depth"] == of(b)["depth"] && of(a)["v_0"] == of(b)["v_0"] && of(a)["id"] == of(b)["id"]));
   }
 }
 

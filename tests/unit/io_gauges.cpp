@@ -33,7 +33,7 @@ TEST_CASE("gauge rows come back to the bit and are continued after a cut") {
   const auto rows = file.continue_after(3);
   REQUIRE(rows.size() == 3);
   CHECK(rows[2].t == row(0.05 * 2).t);
-  CHECK(rows[2].elevation == row(0.05 * 2).elevation);
+  CHECK(rows[2].value == row(0.05 * 2).value);
   CHECK(rows[2].dry == row(0.05 * 2).dry);
   file.append(row(7));
   CHECK(read_text(path) ==
@@ -42,6 +42,17 @@ TEST_CASE("gauge rows come back to the bit and are continued after a cut") {
         "0.05,0.3833333333333333,0,-0.005000000000000001,1\n"
         "0.1,0.43333333333333335,0,-0.010000000000000002,1\n"
         "7,7.333333333333333,0,-0.7000000000000001,1\n");
+}
+
+TEST_CASE("titles and measurements carry what each gauge shows, in its unit") {
+  const test::Scratch scratch;
+  std::vector<Gauge> gauges = two_gauges();
+  gauges[0].what = Gauge::What::pressure, gauges[0].measured = Series{{0}, {5000}};
+  gauges[1].what = Gauge::What::front;
+  GaugeFile(scratch / "gauges.csv").create(gauges);
+  write_measured(scratch / "measured.csv", gauges);
+  CHECK(read_text(scratch / "gauges.csv") == "t [s],ch5 pressure [Pa],ch5 dry,\"left, far front [m]\",\"left, far dry\"\n");
+  CHECK(read_text(scratch / "measured.csv") == "t [s],ch5 [Pa]\n0,5000\n");
 }
 
 TEST_CASE("a gauge file with fewer rows than the checkpoint counts is an error") {

@@ -51,17 +51,28 @@ TEST_CASE("particle files give UTM positions back and leave boundary particles o
   file.append(0, 0.5, three_particles(true));
 
   const auto step = read_particle_step(scratch / "particles.h5part", 0);
-  REQUIRE(step.x.size() == 2);
+  REQUIRE(step["x"].size() == 2);
   CHECK(step.t == 0.5);
   // Required: 1 mm. Stored as float64: the same bits. As float32 the error would be 0.25 m.
-  CHECK(step.x == std::vector<double>{easting, easting + 0.001});
-  CHECK(step.y == std::vector<double>{northing, northing + 0.002});
+  CHECK(step["x"] == std::vector<double>{easting, easting + 0.001});
+  CHECK(step["y"] == std::vector<double>{northing, northing + 0.002});
   // Numbers that float32 holds exactly.
-  CHECK(step.z == std::vector<double>{0.75, 1.5});
-  CHECK(step.depth == std::vector<double>{1.75, 4.5});
-  CHECK(step.v_0 == std::vector<double>{1.5, -3.5});
-  CHECK(step.v_1 == std::vector<double>{0.25, 0.125});
-  CHECK(step.id == std::vector<int>{7, 9});
+  CHECK(step["z"] == std::vector<double>{0.75, 1.5});
+  CHECK(step["depth"] == std::vector<double>{1.75, 4.5});
+  CHECK(step["v_0"] == std::vector<double>{1.5, -3.5});
+  CHECK(step["v_1"] == std::vector<double>{0.25, 0.125});
+  CHECK(step["id"] == std::vector<double>{7, 9});
+}
+
+TEST_CASE("what is read of a step comes in one order, with units") {
+  const test::Scratch scratch;
+  const ParticleFile file(scratch / "particles.h5part", {{"bed", "v", "z", "depth"}});
+  file.create("", "0.1", three_particles(true));
+  file.append(0, 0, three_particles(true));
+  std::string titles;
+  for (const ParticleColumn& column : read_particle_step(scratch / "particles.h5part", 0).columns)
+    titles += column.name + " [" + column.unit + "] ";
+  CHECK(titles == "x [m] y [m] z [m] depth [m] v_1 [m/s] bed [m] id [1] ");
 }
 
 TEST_CASE("particle files of 1-D scenes have y = 0 and no v_1") {
@@ -70,8 +81,8 @@ TEST_CASE("particle files of 1-D scenes have y = 0 and no v_1") {
   file.create("", "0.1", three_particles(false));
   file.append(0, 0, three_particles(false));
   const auto step = read_particle_step(scratch / "particles.h5part", 0);
-  CHECK(step.y == std::vector<double>{0, 0});
-  CHECK(step.v_1.empty());
+  CHECK(step["y"] == std::vector<double>{0, 0});
+  CHECK(step["v_1"].empty());
 }
 
 TEST_CASE("particle files tell the scene, the version and the units") {
@@ -97,7 +108,7 @@ TEST_CASE("particle files hold the fields that are asked for, once each, and no 
   const auto step = all.open("Step#0");
   CHECK(step.names() == std::vector<std::string>{"bed", "id", "v_1", "x", "y"});
   CHECK(step.reals("bed") == std::vector<double>{-1, -3});
-  CHECK(read_particle_step(scratch / "particles.h5part", 0).depth.empty());
+  CHECK(read_particle_step(scratch / "particles.h5part", 0)["depth"].empty());
 }
 
 TEST_CASE("particle files read no field that nobody asked for") {
@@ -181,7 +192,7 @@ TEST_CASE("a disk that fills up in the middle of an output is an error and spare
     CHECK_THROWS_AS(file.append(1, 1, fields), IoError);
     CHECK_THROWS_WITH(file.append(1, 1, fields), Catch::Contains(path) && Catch::Contains("cannot grow"));
     REQUIRE(list_particle_steps(path).size() == 1);
-    CHECK(read_particle_step(path, 0).x.size() == 20000);
+    CHECK(read_particle_step(path, 0)["x"].size() == 20000);
   }
   CHECK_NOTHROW(file.append(1, 1, fields));  // once there is room again
   CHECK(list_particle_steps(path).size() == 2);
@@ -195,7 +206,7 @@ TEST_CASE("empty particle sets can be written and read") {
   const ParticleFile file(scratch / "particles.h5part");
   file.create("", "0.1", fields);
   file.append(0, 0, fields);
-  CHECK(read_particle_step(scratch / "particles.h5part", 0).x.empty());
+  CHECK(read_particle_step(scratch / "particles.h5part", 0)["x"].empty());
 }
 
 TEST_CASE("particle file errors name the file and the step") {

@@ -292,7 +292,7 @@ TEST_CASE("points prints the particles of an output") {
   CHECK(list.out == "step,t [s]\n0,0\n1,0.25\n2,0.5\n3,0.75\n4,1\n");
   const Result first = freshet_with({"points", scratch / "r", "--step", "0"});
   CHECK(first.code == 0);
-  CHECK(first.out.rfind("x [m],y [m],z [m],depth [m],v_0 [m/s],v_1 [m/s]\n0.025,0.025,1.0025", 0) == 0);
+  CHECK(first.out.rfind("x [m],y [m],z [m],depth [m],v_0 [m/s],v_1 [m/s],id [1],size [m]\n0.025,0.025,1.0025", 0) == 0);
   CHECK(std::count(first.out.begin(), first.out.end(), '\n') == 401);
   CHECK(freshet_with({"points", scratch / "r", "--step", "0", "--csv", scratch / "p.csv"}).code == 0);
   CHECK(read_text(scratch / "p.csv") == first.out);

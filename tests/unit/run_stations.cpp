@@ -59,7 +59,7 @@ TEST_CASE("gauge values lie on the line between the steps around their time") {
   REQUIRE(gauges.rows().size() == 11);
   for (const auto& row : gauges.rows()) {
     // Exact but for rounding of numbers of the order of 1: a few 2^-53.
-    CHECK(row.elevation[0] == Approx(-2 + 1 + 0.5 * row.t).margin(1e-15));
+    CHECK(row.value[0] == Approx(-2 + 1 + 0.5 * row.t).margin(1e-15));
     CHECK_FALSE(row.dry[0]);
   }
   CHECK(gauges.rows().back().t == 1.0);
@@ -85,7 +85,7 @@ TEST_CASE("a dry gauge shows the bed and is marked") {
   GaugeRecorder gauges(scene, scratch.path());
   run(method, gauges, {0.5, 1.0});
   for (const auto& row : gauges.rows()) {
-    CHECK(row.elevation[0] == -2.0);
+    CHECK(row.value[0] == -2.0);
     CHECK(row.dry[0]);
   }
 }

@@ -47,6 +47,28 @@ TEST_CASE("the summary holds what is promised of every run, in its order, empty 
   CHECK(text.find("\"runup\": {\n    \"valley\": 0.0875\n  },\n  \"waterline\": {}") != std::string::npos);
 }
 
+TEST_CASE("a table has errors and peaks in the units of what its gauges show") {
+  const test::Scratch scratch;
+  Scene scene = test::fake_scene();
+  scene.gauges.push_back(scene.gauges[0]);
+  scene.gauges[1].name = "wall", scene.gauges[1].what = Gauge::What::pressure;
+  test::FakeMethod method(scene);
+  GaugeRecorder gauges(scene, scratch.path());
+  gauges.begin(method);
+  Report report;
+  gauges.report(method, {}, report);
+  const std::string& tables = report.tables;
+  const auto level = tables.find("peak [cm]"), middle = tables.find("\nmiddle");
+  const auto pascals = tables.find("peak [Pa]"), wall = tables.find("\nwall");
+  CHECK((level < middle && middle < pascals && pascals < wall && wall != std::string::npos));
+  const auto shown = [&](std::size_t at) {  // the first number of the row: the peak that was run
+    return std::stod(tables.substr(tables.find_first_of("0123456789", at)));
+  };
+  // The fake method tells the same number for both; it is printed with two digits behind the point.
+  CHECK(shown(middle) == Approx(100 * gauges.rows()[0].value[0]).margin(0.005));
+  CHECK(shown(wall) == Approx(gauges.rows()[0].value[1]).margin(0.005));
+}
+
 TEST_CASE("observers write their promised keys, errors only where the scene names a reference") {
   const test::Scratch scratch;
   Scene scene = test::fake_scene();

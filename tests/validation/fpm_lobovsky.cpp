@@ -42,7 +42,7 @@ Record computed() {
   while (run.clock.t < 2.9 * time_unit) {
     run.run_to(std::min(2.9 * time_unit, run.clock.t + run.solver.stable_dt()));
     if (run.clock.t < 2.2 * time_unit) continue;
-    r.t.push_back(run.clock.t / time_unit), r.p.push_back(run.solver.gauge(run.scene.gauges)[0].depth / pressure_unit);
+    r.t.push_back(run.clock.t / time_unit), r.p.push_back(run.solver.read(run.scene.gauges)[0].value / pressure_unit);
   }
   return r;
 }

@@ -19,10 +19,10 @@ struct Sample {
 
 // What one of the scene's gauges shows, step by step.
 std::vector<Sample> record(test::FlowRun& run, double end, std::size_t gauge) {
-  std::vector<Sample> samples{{0, run.solver.gauge(run.scene.gauges)[gauge].depth}};
+  std::vector<Sample> samples{{0, run.solver.read(run.scene.gauges)[gauge].value}};
   while (run.clock.t < end) {
     run.run_to(std::min(end, run.clock.t + run.solver.stable_dt()));
-    samples.push_back({run.clock.t, run.solver.gauge(run.scene.gauges)[gauge].depth});
+    samples.push_back({run.clock.t, run.solver.read(run.scene.gauges)[gauge].value});
   }
   return samples;
 }

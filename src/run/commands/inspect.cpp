@@ -60,16 +60,19 @@ int print_keys(const std::vector<KeyNote>& keys) {
 }
 
 void print_rows(std::FILE* out, const ParticleStep& step) {
-  const bool flat = step.v_1.empty();
-  std::fprintf(out, "x [m],y [m],z [m],depth [m],v_0 [m/s]%s\n", flat ? "" : ",v_1 [m/s]");
-  std::vector<const std::vector<double>*> columns{&step.z, &step.depth, &step.v_0};
-  if (!flat) columns.push_back(&step.v_1);
-  for (std::size_t i = 0; i < step.x.size(); ++i) {
-    std::fprintf(out, "%.12g,%.12g", step.x[i], step.y[i]);
-    for (const auto* column : columns)  // an empty cell where the file has none
-      std::fputs(column->empty() ? "," : formatted(",%.8g", (*column)[i]).c_str(), out);
-    std::fputc('\n', out);
+  const char* comma = "";
+  for (const ParticleColumn& column : step.columns) {
+    std::fprintf(out, "%s%s [%s]", comma, column.name.c_str(), column.unit.c_str());
+    comma = ",";
   }
+  for (std::size_t i = 0; i < step.size(); ++i) {
+    comma = "\n";
+    for (const ParticleColumn& column : step.columns) {
+      std::fprintf(out, column.name == "x" || column.name == "y" ? "%s%.12g" : "%s%.8g", comma, column.values[i]);
+      comma = ",";
+    }
+  }
+  std::fputc('\n', out);
 }
 
 void write_rows(const std::string& path, const ParticleStep& step) {

@@ -46,7 +46,7 @@ Series gauge_series(const std::vector<GaugeRow>& rows, std::size_t index) {
   Series series;
   for (const auto& row : rows) {
     series.t.push_back(row.t);
-    series.value.push_back(row.elevation[index]);
+    series.value.push_back(row.value[index]);
   }
   return series;
 }

@@ -1,4 +1,4 @@
-// A computed gauge against the measured one. Computed values lie between two rows by linear interpolation.
+// A computed gauge against the measured one, in the unit of what it shows. Computed values lie between two rows by linear interpolation.
 #pragma once
 #include <string>
 #include <utility>
@@ -12,16 +12,16 @@ namespace freshet {
 
 struct GaugeResult {
   std::string name;
-  double rmse = unknown, max_abs_error = unknown;      // m, over the measured times that lie in the run
-  double rmse_window = unknown;                        // m, the same over the window of the main wave
+  double rmse = unknown, max_abs_error = unknown;      // over the measured times that lie in the run
+  double rmse_window = unknown;                        // the same over the window of the main wave
   std::pair<double, double> window{unknown, unknown};  // s
-  double peak = unknown, peak_time = unknown;          // m, s, after Gauge::peak_after
-  double measured_peak = unknown, measured_peak_time = unknown;  // m, s
+  double peak = unknown, peak_time = unknown;          // and s, after Gauge::peak_after
+  double measured_peak = unknown, measured_peak_time = unknown;  // and s
   double arrival = unknown, measured_arrival = unknown;          // s, first crossing of Gauge::arrival_level
   double dry = 0;                                                // fraction of the rows
 };
 
-// Column `index` of the rows as a series [m].
+// Column `index` of the rows as a series.
 Series gauge_series(const std::vector<GaugeRow>& rows, std::size_t index);
 
 // Statistics over the measured times that lie within the computed series. With tau = the measured rise from
@@ -30,7 +30,7 @@ Series gauge_series(const std::vector<GaugeRow>& rows, std::size_t index);
 GaugeResult compare_gauge(const Gauge& gauge, const std::vector<GaugeRow>& rows, std::size_t index);
 
 struct Peak {
-  double value = unknown, t = unknown;  // m, s
+  double value = unknown, t = unknown;  // s
 };
 Peak peak_after(const Series& series, double after, double until);
 

@@ -7,21 +7,20 @@ namespace {
 
 double lerp(double a, double b, double w) { return a + w * (b - a); }
 
+constexpr char columns[] = "%-12s %8s %8s %8s   %7s %7s   %7s %7s   %7s %7s\n";
+
 double interval(const Scene& scene) {
   return scene.output.gauges_every > 0 ? scene.output.gauges_every : scene.output.every;
 }
 
-PointState between(const PointState& a, const PointState& b, double w) {
-  PointState state;
-  state.bed = lerp(a.bed, b.bed, w);
-  state.depth = lerp(a.reached ? a.depth : 0, b.reached ? b.depth : 0, w);
-  state.reached = a.reached || b.reached;
-  state.thin_is_dry = b.thin_is_dry;
-  return state;
+Reading between(const Reading& a, const Reading& b, double w) {
+  const double value = lerp(a.wet ? a.value : 0, b.wet ? b.value : 0, w);
+  return {value, lerp(a.base, b.base, w), (a.wet || b.wet) && value >= b.film, b.film};
 }
 
-void write_json(JsonWriter& out, const GaugeResult& gauge) {
+void write_json(JsonWriter& out, const GaugeResult& gauge, const Measurand& shown) {
   out.begin(gauge.name)
+      .value("shows", std::string(shown.name)).value("unit", std::string(shown.unit))
       .value("rmse", gauge.rmse).value("rmse_window", gauge.rmse_window)
       .value("window_start", gauge.window.first).value("window_end", gauge.window.second)
       .value("max_abs_error", gauge.max_abs_error)
@@ -32,20 +31,28 @@ void write_json(JsonWriter& out, const GaugeResult& gauge) {
       .end();
 }
 
-std::string table(const std::vector<GaugeResult>& gauges) {
-  static constexpr char row[] = "%-12s %8s %8s %8s   %7s %7s   %7s %7s   %7s %7s\n";
-  std::string lines = formatted("\n%-12s %8s %8s %8s   %15s   %15s   %15s\n", "gauge", "rmse", "in wave",
-                                "max", "peak [cm]", "at [s]", "arrival [s]");
-  lines += formatted(row, "", "[mm]", "[mm]", "[mm]", "run", "meas.", "run", "meas.", "run", "meas.");
-  const auto mm = [](double m) { return decimal(m, 1e-3, 2); };
-  const auto cm = [](double m) { return decimal(m, 1e-2, 2); };
+std::string row(const GaugeResult& g, const Measurand& shown) {
+  const auto fine = [&](double x) { return decimal(x, shown.fine.size, 2); };
+  const auto coarse = [&](double x) { return decimal(x, shown.coarse.size, 2); };
   const auto s = [](double t) { return decimal(t, 1, 2); };
-  for (const auto& g : gauges)
-    lines += formatted(row, g.name.c_str(), mm(g.rmse).c_str(), mm(g.rmse_window).c_str(),
-                       mm(g.max_abs_error).c_str(), cm(g.peak).c_str(), cm(g.measured_peak).c_str(),
-                       s(g.peak_time).c_str(), s(g.measured_peak_time).c_str(), s(g.arrival).c_str(),
-                       s(g.measured_arrival).c_str());
-  return lines;
+  return formatted(columns, g.name.c_str(), fine(g.rmse).c_str(), fine(g.rmse_window).c_str(),
+                   fine(g.max_abs_error).c_str(), coarse(g.peak).c_str(), coarse(g.measured_peak).c_str(),
+                   s(g.peak_time).c_str(), s(g.measured_peak_time).c_str(), s(g.arrival).c_str(),
+                   s(g.measured_arrival).c_str());
+}
+
+// The gauges that show quantities of this unit; nothing where there are none.
+std::string table(const std::vector<Gauge>& gauges, const std::vector<GaugeResult>& results, const Measurand& shown) {
+  std::string rows;
+  for (std::size_t g = 0; g < gauges.size(); ++g)
+    if (gauges[g].measurand().unit == std::string(shown.unit)) rows += row(results[g], shown);
+  if (rows.empty()) return "";
+  const std::string fine = formatted("[%s]", shown.fine.unit), peak = formatted("peak [%s]", shown.coarse.unit);
+  return formatted("\n%-12s %8s %8s %8s   %15s   %15s   %15s\n", "gauge", "rmse", "in wave", "max", peak.c_str(),
+                   "at [s]", "arrival [s]") +
+         formatted(columns, "", fine.c_str(), fine.c_str(), fine.c_str(), "run", "meas.", "run", "meas.", "run",
+                   "meas.") +
+         rows;
 }
 
 }  // namespace
@@ -59,35 +66,35 @@ GaugeRecorder::GaugeRecorder(const Scene& scene, const std::string& directory)
 void GaugeRecorder::begin(const Method& method) {
   file_.create(gauges_);
   write_measured(path_in(directory_, "measured.csv"), gauges_);
-  write(0, method.gauge(gauges_));
+  write(0, method.read(gauges_));
   row_times_.advance();
 }
 
 void GaugeRecorder::before_step(const Method& method, const Clock& clock, const Stride& stride) {
   if (row_times_.next() > stride.until || watched_t_ == clock.t) return;
-  watched_ = method.gauge(gauges_);
+  watched_ = method.read(gauges_);
   watched_t_ = clock.t;
 }
 
 void GaugeRecorder::after_step(const Method& method, const Clock& clock) {
   if (!row_times_.due(clock.t)) return;
-  const auto now = method.gauge(gauges_);
+  const auto now = method.read(gauges_);
   for (; row_times_.due(clock.t); row_times_.advance()) {
     const double w = (row_times_.next() - watched_t_) / (clock.t - watched_t_);
-    std::vector<PointState> states;
-    for (std::size_t g = 0; g < now.size(); ++g) states.push_back(between(watched_[g], now[g], w));
-    write(row_times_.next(), states);
+    std::vector<Reading> readings;
+    for (std::size_t g = 0; g < now.size(); ++g) readings.push_back(between(watched_[g], now[g], w));
+    write(row_times_.next(), readings);
   }
   watched_ = now;
   watched_t_ = clock.t;
 }
 
-void GaugeRecorder::write(double t, const std::vector<PointState>& states) {
+void GaugeRecorder::write(double t, const std::vector<Reading>& readings) {
   GaugeRow row;
   row.t = t;
-  for (const auto& state : states) {
-    const bool dry = !state.reached || (state.thin_is_dry && state.depth < dry_depth);
-    row.elevation.push_back(dry ? state.bed : state.bed + state.depth);
+  for (const Reading& r : readings) {
+    const bool dry = !r.wet || r.value < r.film;
+    row.value.push_back(dry ? r.base : r.base + r.value);
     row.dry.push_back(dry);
   }
   file_.append(row);
@@ -113,9 +120,10 @@ std::vector<GaugeResult> GaugeRecorder::results() const {
 void GaugeRecorder::report(const Method&, const Clock&, Report& report) const {
   const auto all = results();
   JsonWriter& out = report.object("gauges");
-  for (const GaugeResult& gauge : all) write_json(out, gauge);
+  for (std::size_t g = 0; g < all.size(); ++g) write_json(out, all[g], gauges_[g].measurand());
   out.end();
-  report.tables += table(all);
+  for (const auto what : {Gauge::What::elevation, Gauge::What::pressure})  // front has elevation's units
+    report.tables += table(gauges_, all, Gauge::measurands[static_cast<std::size_t>(what)]);
 }
 
 }  // namespace freshet

@@ -1,13 +1,11 @@
 // Gauges: rows of gauges.csv at their own times, which never shorten dt. Between the two steps that bracket a
-// gauge time depth and bed are interpolated linearly.
+// gauge time value and base are interpolated linearly.
 #pragma once
 #include "src/io/gauges.hpp"
 #include "src/run/observe/observer.hpp"
 #include "src/run/record/gauge_stats.hpp"
 
 namespace freshet {
-
-constexpr double dry_depth = 1e-4;  // m: a gauge with less water shows the bed level, marked dry
 
 class GaugeRecorder : public Observer {
  public:
@@ -28,7 +26,7 @@ class GaugeRecorder : public Observer {
   std::vector<GaugeResult> results() const;  // in the order of the scene
 
  private:
-  void write(double t, const std::vector<PointState>& states);
+  void write(double t, const std::vector<Reading>& readings);
 
   std::vector<Gauge> gauges_;
   std::string directory_;
@@ -36,7 +34,7 @@ class GaugeRecorder : public Observer {
   GaugeFile file_;
   std::vector<GaugeRow> rows_;
   double watched_t_ = -1;            // s, time of watched_
-  std::vector<PointState> watched_;  // state before the step
+  std::vector<Reading> watched_;  // before the step
 };
 
 }  // namespace freshet
