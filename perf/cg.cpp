@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "cellgrid/runtime.hpp"
+#include "cellgrid/parallel/runtime.hpp"
 #include "kernels/linear/cg.hpp"
 #include "kernels/linear/mesh/particle_mesh.hpp"
 #include "kernels/sisph/pairs/coefficients.hpp"

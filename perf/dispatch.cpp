@@ -22,12 +22,12 @@
 #include <string>
 #include <vector>
 
-#include "cellgrid/runtime.hpp"
+#include "cellgrid/parallel/runtime.hpp"
 #include "kernels/swe/density/density.hpp"
 #include "kernels/swe/force/internal_force.hpp"
 #include "kernels/swe/motion.hpp"
-#include "src/method.hpp"
-#include "src/scene/place.hpp"
+#include "src/methods/method.hpp"
+#include "src/scene/place/place.hpp"
 
 using namespace freshet;
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "cellgrid/runtime.hpp"
-#include "src/fpm/solver.hpp"
+#include "cellgrid/parallel/runtime.hpp"
+#include "src/methods/fpm/solver.hpp"
 #include "src/scene/read.hpp"
 
 namespace {

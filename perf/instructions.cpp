@@ -12,7 +12,7 @@
 #include <csignal>
 #include <unordered_map>
 
-#include "cellgrid/runtime.hpp"
+#include "cellgrid/parallel/runtime.hpp"
 #include "perf/decode.hpp"
 #include "perf/passes.hpp"
 

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <map>
 
-#include "cellgrid/runtime.hpp"
+#include "cellgrid/parallel/runtime.hpp"
 #include "perf/passes.hpp"
 #include "src/run/timing/peaks.hpp"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "cellgrid/pairs.hpp"
+#include "cellgrid/particles/pairs.hpp"
 #include "kernels/ground/bed_spline.hpp"
 #include "kernels/swe/density/density.hpp"
 #include "kernels/swe/density/depth_gradient.hpp"

@@ -17,7 +17,7 @@ CALL = re.compile(r'\b(?:number|integer|boolean|text|choices?|numbers|points?|fu
 def keys_of_sources(root):
     """Name of every key that is read: where, as file:line."""
     found = {}
-    for file in [*sorted((root / "src/scene").glob("*.cpp")), *sorted((root / "kernels").rglob("*.hpp"))]:
+    for file in [*sorted((root / "src/scene").rglob("*.cpp")), *sorted((root / "kernels").rglob("*.hpp"))]:
         text = file.read_text()
         for call in CALL.finditer(text):
             line = 1 + text.count("\n", 0, call.start())

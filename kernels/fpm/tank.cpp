@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cellgrid/on_device.hpp"
+#include "cellgrid/parallel/on_device.hpp"
 
 namespace freshet::fpm {
 namespace {

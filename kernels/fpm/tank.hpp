@@ -2,7 +2,7 @@
 // Points on walls slide along their side; corners that turn towards the water by more than 10 degrees hold a fixed point.
 // Of corners that turn away from it (more than 180 degrees of water) no point is kept: points slide round them.
 #pragma once
-#include "kernels/walls/piece_bins.hpp"
+#include "kernels/boundaries/walls/piece_bins.hpp"
 
 namespace freshet::fpm {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "cellgrid/on_device.hpp"
+#include "cellgrid/parallel/on_device.hpp"
 
 namespace freshet {
 namespace {

@@ -5,8 +5,8 @@
 #include <array>
 #include <functional>
 
-#include "cellgrid/lanes.hpp"
-#include "cellgrid/vec.hpp"
+#include "cellgrid/simd/lanes.hpp"
+#include "cellgrid/simd/vec.hpp"
 
 namespace freshet {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cellgrid/assign.hpp"
+#include "cellgrid/parallel/assign.hpp"
 
 namespace freshet {
 

@@ -1,6 +1,6 @@
 #include "kernels/ground/regions.hpp"
 
-#include "cellgrid/on_device.hpp"
+#include "cellgrid/parallel/on_device.hpp"
 
 namespace freshet {
 

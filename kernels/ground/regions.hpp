@@ -1,6 +1,6 @@
 // A value that depends on the place: one of its own inside each polygon (1-D: interval), another elsewhere.
 #pragma once
-#include "kernels/walls/polyline.hpp"
+#include "kernels/boundaries/walls/polyline.hpp"
 
 namespace freshet {
 

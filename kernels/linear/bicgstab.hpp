@@ -5,7 +5,7 @@
 #pragma once
 #include <cmath>
 
-#include "cellgrid/launch.hpp"
+#include "cellgrid/parallel/launch.hpp"
 #include "kernels/linear/vectors.hpp"
 
 namespace freshet::linear {

@@ -5,9 +5,9 @@
 #pragma once
 #include <cstdint>
 
-#include "cellgrid/clusters.hpp"
-#include "cellgrid/huge_pages.hpp"
-#include "cellgrid/launch.hpp"
+#include "cellgrid/particles/clusters.hpp"
+#include "cellgrid/parallel/huge_pages.hpp"
+#include "cellgrid/parallel/launch.hpp"
 
 namespace freshet::linear {
 

@@ -3,8 +3,8 @@
 // Bytes from memory per row, x in cache: 12 per stored entry (a and j, padding included), 40 for diagonal, mask, x and y with
 // the load before its store.
 #pragma once
-#include "cellgrid/pairs.hpp"
-#include "cellgrid/sums.hpp"
+#include "cellgrid/particles/pairs.hpp"
+#include "cellgrid/particles/sums.hpp"
 
 namespace freshet::linear {
 

@@ -3,7 +3,7 @@
 #pragma once
 #include <utility>
 
-#include "cellgrid/lanes.hpp"
+#include "cellgrid/simd/lanes.hpp"
 
 namespace freshet {
 

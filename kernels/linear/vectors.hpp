@@ -1,9 +1,9 @@
-// Vectors of a linear system: the passes that iterative solvers share. Sums depend on no order (cellgrid/sums.hpp); each
+// Vectors of a linear system: the passes that iterative solvers share. Sums depend on no order (cellgrid/particles/sums.hpp); each
 // function is one visit to memory.
 // n: unknowns; fields may be longer. Device-safe: KOKKOS_LAMBDA with local copies only.
 #pragma once
-#include "cellgrid/launch.hpp"
-#include "cellgrid/sums.hpp"
+#include "cellgrid/parallel/launch.hpp"
+#include "cellgrid/particles/sums.hpp"
 
 namespace freshet::linear {
 

@@ -1,6 +1,6 @@
 // The particle fields of semi-implicit SPH for the shallow water equations.
 #pragma once
-#include "cellgrid/fields.hpp"
+#include "cellgrid/particles/fields.hpp"
 
 namespace freshet::sisph {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <variant>
 
-#include "cellgrid/lanes.hpp"
+#include "cellgrid/simd/lanes.hpp"
 
 namespace freshet {
 

@@ -1,6 +1,6 @@
 #include "kernels/swe/motion.hpp"
 
-#include "cellgrid/launch.hpp"
+#include "cellgrid/parallel/launch.hpp"
 
 namespace freshet::swe {
 namespace {

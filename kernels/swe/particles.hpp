@@ -1,8 +1,8 @@
 // The particle fields of explicit SPH for the shallow water equations (Vacondio 2010, ch. 2).
 // Units: rho_w = 1, so that the density per area rho is the depth d [m] and the mass m is a volume [m3] (1-D: [m2], unit width).
 #pragma once
-#include "cellgrid/fields.hpp"
-#include "cellgrid/twin.hpp"
+#include "cellgrid/particles/fields.hpp"
+#include "cellgrid/particles/twin.hpp"
 #include "kernels/smoothing/smoothing.hpp"
 
 namespace freshet::swe {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cellgrid/assign.hpp"
-#include "cellgrid/launch.hpp"
+#include "cellgrid/parallel/assign.hpp"
+#include "cellgrid/parallel/launch.hpp"
 
 namespace freshet {
 namespace {

@@ -1,7 +1,7 @@
 // Water on a regular grid of cells (thesis 2.6): sums over the particles whose kernel covers a cell's centre, their
 // Shepard means where there is enough water, and the largest values so far.
 #pragma once
-#include "cellgrid/clusters.hpp"
+#include "cellgrid/particles/clusters.hpp"
 #include "kernels/smoothing/smoothing.hpp"
 
 namespace freshet {

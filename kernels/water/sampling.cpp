@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "cellgrid/launch.hpp"
-#include "cellgrid/types.hpp"
+#include "cellgrid/parallel/launch.hpp"
+#include "cellgrid/parallel/types.hpp"
 
 namespace freshet {
 namespace {

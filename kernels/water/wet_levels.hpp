@@ -3,7 +3,7 @@
 //   line: where its surface meets the bed: bed + min(depth, spacing |grad b|), the surface of that water, no higher than the bed a spacing
 //         up the slope. Particles at rest are wet or dry, so that `bed` rises in steps of spacing |grad b|; `line` does not.
 #pragma once
-#include "cellgrid/types.hpp"
+#include "cellgrid/parallel/types.hpp"
 
 namespace freshet {
 

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "cellgrid/assign.hpp"
+#include "cellgrid/parallel/assign.hpp"
 #include "src/errors.hpp"
 #include "src/io/files.hpp"
 #include "src/io/hdf5.hpp"

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "cellgrid/fields.hpp"
+#include "cellgrid/particles/fields.hpp"
 
 namespace freshet {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "cellgrid/fields.hpp"
+#include "cellgrid/particles/fields.hpp"
 
 namespace freshet {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cellgrid/types.hpp"
+#include "cellgrid/parallel/types.hpp"
 
 namespace freshet {
 namespace {

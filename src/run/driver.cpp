@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "cellgrid/runtime.hpp"
+#include "cellgrid/parallel/runtime.hpp"
 #include "src/io/build.hpp"
 #include "src/io/files.hpp"
 #include "src/io/fluid.hpp"

@@ -1,10 +1,10 @@
 #include "src/errors.hpp"
-#include "src/fpm/solver.hpp"
-#include "src/method.hpp"
-#include "src/sisph/at_rest.hpp"
-#include "src/sisph/moving.hpp"
-#include "src/swe/relax.hpp"
-#include "src/swe/solver.hpp"
+#include "src/methods/fpm/solver.hpp"
+#include "src/methods/method.hpp"
+#include "src/methods/sisph/at_rest.hpp"
+#include "src/methods/sisph/moving.hpp"
+#include "src/methods/swe/relax.hpp"
+#include "src/methods/swe/solver.hpp"
 
 namespace freshet {
 namespace {

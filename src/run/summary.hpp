@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <string>
 
-#include "src/method.hpp"
+#include "src/methods/method.hpp"
 #include "src/run/observe/report.hpp"
 
 namespace freshet {

@@ -1,8 +1,8 @@
 // The read-back of a scene for `freshet check`.
 #include <algorithm>
 
-#include "src/scene/choices.hpp"
-#include "src/scene/diagnostics.hpp"
+#include "src/scene/toml/choices.hpp"
+#include "src/scene/toml/diagnostics.hpp"
 #include "src/scene/read.hpp"
 #include "src/text.hpp"
 

@@ -7,10 +7,10 @@
 #include <iterator>
 
 #include "src/errors.hpp"
-#include "src/scene/overrides.hpp"
-#include "src/scene/sections.hpp"
-#include "src/scene/serialise.hpp"
-#include "src/scene/slope.hpp"
+#include "src/scene/toml/overrides.hpp"
+#include "src/scene/sections/sections.hpp"
+#include "src/scene/toml/serialise.hpp"
+#include "src/scene/shapes/slope.hpp"
 
 namespace freshet {
 namespace {

@@ -10,13 +10,13 @@
 #include <vector>
 
 #include "kernels/fpm/pressure/pressure_scheme.hpp"
-#include "kernels/open/states.hpp"
+#include "kernels/boundaries/open/states.hpp"
 #include "kernels/sisph/velocity/momentum_form.hpp"
 #include "kernels/sisph/moving/paths.hpp"
 #include "kernels/smoothing/smoothing.hpp"
 #include "kernels/swe/force/stabilisation.hpp"
-#include "kernels/walls/wall_kind.hpp"
-#include "kernels/walls/point.hpp"
+#include "kernels/boundaries/walls/wall_kind.hpp"
+#include "kernels/boundaries/walls/point.hpp"
 
 namespace freshet {
 
@@ -76,7 +76,7 @@ struct OpenBoundary {
   // m, two points or more (no sharp bends); the water is on its left. 1-D: (x, 1), (x, 0) at the left end and (x, 0), (x, 1) at
   // the right end.
   std::vector<Point> line;
-  OpenLaw law;         // kernels/open/states.hpp: what follows time is in `imposed`
+  OpenLaw law;         // kernels/boundaries/open/states.hpp: what follows time is in `imposed`
   struct Imposed {
     std::string what;  // "level"
     std::string unit;  // "m"; discharges m3/s (1-D: m2/s); velocities and discharges inwards

@@ -5,7 +5,7 @@
 
 #include <cstdlib>
 
-#include "cellgrid/runtime.hpp"
+#include "cellgrid/parallel/runtime.hpp"
 
 int main(int argc, char** argv) {
   Catch::Session session;
@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
   const bool only_talks = asked.showHelp || asked.libIdentify || asked.listTests || asked.listTags || asked.listReporters ||
                           asked.listTestNamesOnly;
   if (only_talks) return session.run();
-  const char* threads = std::getenv("FRESHET_TEST_THREADS");  // tests/support/threads.hpp
+  const char* threads = std::getenv("FRESHET_TEST_THREADS");  // tests/support/watch/threads.hpp
   const freshet::Runtime kokkos(threads ? std::atoi(threads) : 0);
   return session.run();
 }

@@ -2,8 +2,8 @@
 // the bisectors of neighbours a and b is the circumcentre of the Delaunay triangle (point, a, b), its distance the
 // circumradius. The square holds the circle of radius `half`: the cell reaches beyond that circle iff a corner does.
 #pragma once
-#include "cellgrid/lanes.hpp"
-#include "cellgrid/vec.hpp"
+#include "cellgrid/simd/lanes.hpp"
+#include "cellgrid/simd/vec.hpp"
 
 namespace freshet::fpm {
 

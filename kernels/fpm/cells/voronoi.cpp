@@ -1,6 +1,6 @@
 #include "kernels/fpm/cells/voronoi.hpp"
 
-#include "cellgrid/launch.hpp"
+#include "cellgrid/parallel/launch.hpp"
 
 namespace freshet::fpm {
 namespace {

@@ -4,7 +4,7 @@
 // Water that comes near other water has air between: an empty circle that was air stays so down to the radius `closed`, told
 // by the sides on which its points were open when last looked at. At 1.3 dx a gap of 2.5 dx would be water at once.
 #pragma once
-#include "cellgrid/near.hpp"
+#include "cellgrid/particles/near.hpp"
 #include "kernels/fpm/cells/cell.hpp"
 #include "kernels/fpm/tank.hpp"
 

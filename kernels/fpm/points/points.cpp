@@ -1,6 +1,6 @@
 #include "kernels/fpm/points/points.hpp"
 
-#include "cellgrid/launch.hpp"
+#include "cellgrid/parallel/launch.hpp"
 #include "kernels/fpm/points/holding.hpp"
 #include "kernels/fpm/points/merging.hpp"
 #include "kernels/water/ids.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "cellgrid/fields.hpp"
+#include "cellgrid/particles/fields.hpp"
 #include "kernels/fpm/cells/voronoi.hpp"
 #include "kernels/fpm/points/transfer.hpp"
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "cellgrid/fields.hpp"
-#include "cellgrid/near.hpp"
+#include "cellgrid/particles/fields.hpp"
+#include "cellgrid/particles/near.hpp"
 #include "kernels/fpm/stencils/mls.hpp"
 
 namespace freshet::fpm {

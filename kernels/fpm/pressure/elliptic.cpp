@@ -1,6 +1,6 @@
 #include "kernels/fpm/pressure/elliptic.hpp"
 
-#include "cellgrid/launch.hpp"
+#include "cellgrid/parallel/launch.hpp"
 
 namespace freshet::fpm {
 namespace {

@@ -1,4 +1,4 @@
-#include "cellgrid/launch.hpp"
+#include "cellgrid/parallel/launch.hpp"
 #include "kernels/fpm/pressure/projection.hpp"
 
 namespace freshet::fpm {

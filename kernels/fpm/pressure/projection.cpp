@@ -1,6 +1,6 @@
 #include "kernels/fpm/pressure/projection.hpp"
 
-#include "cellgrid/launch.hpp"
+#include "cellgrid/parallel/launch.hpp"
 #include "kernels/fpm/pressure/spray.hpp"
 
 namespace freshet::fpm {

@@ -5,7 +5,7 @@
 #pragma once
 #include <type_traits>
 
-#include "cellgrid/vec.hpp"
+#include "cellgrid/simd/vec.hpp"
 #include "kernels/fpm/stencils/soft.hpp"
 
 namespace freshet::fpm {

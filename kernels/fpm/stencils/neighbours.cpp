@@ -1,6 +1,6 @@
 #include "kernels/fpm/stencils/neighbours.hpp"
 
-#include "cellgrid/box.hpp"
+#include "cellgrid/simd/box.hpp"
 
 namespace freshet::fpm {
 namespace {

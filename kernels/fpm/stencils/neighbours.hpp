@@ -1,8 +1,8 @@
 // Who is near whom in FPM: for each cluster of points the list of those within h of any of its lanes. One list per step serves the
 // stencils, the elliptic rows and all operators, which take a pair's geometry from the positions again (cheaper than memory).
 #pragma once
-#include "cellgrid/clusters.hpp"
-#include "cellgrid/near.hpp"
+#include "cellgrid/particles/clusters.hpp"
+#include "cellgrid/particles/near.hpp"
 #include "kernels/fpm/stencils/mls.hpp"
 
 namespace freshet::fpm {

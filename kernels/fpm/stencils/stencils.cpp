@@ -1,6 +1,6 @@
 #include "kernels/fpm/stencils/stencils.hpp"
 
-#include "cellgrid/launch.hpp"
+#include "cellgrid/parallel/launch.hpp"
 
 namespace freshet::fpm {
 namespace {

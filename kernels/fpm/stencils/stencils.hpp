@@ -3,7 +3,7 @@
 // differences to the point's own value; the fitted value counts the point itself with weight 1. The moments
 // are kept for the rows of the pressure. Reads x, h; writes factors [1/m, 1/m2, 1], moments [1].
 #pragma once
-#include "cellgrid/sums.hpp"
+#include "cellgrid/particles/sums.hpp"
 #include "kernels/fpm/stencils/neighbours.hpp"
 
 namespace freshet::fpm {

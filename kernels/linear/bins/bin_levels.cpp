@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "cellgrid/launch.hpp"
+#include "cellgrid/parallel/launch.hpp"
 #include "kernels/linear/bins/bin_multigrid.hpp"
 
 namespace freshet::linear {

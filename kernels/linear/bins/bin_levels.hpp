@@ -1,7 +1,7 @@
 // The levels of the bin multigrid (bin_multigrid.hpp): square bins of points, then of bins, with their matrices as stencils on the grid
 // of bins.
 #pragma once
-#include "cellgrid/order.hpp"
+#include "cellgrid/particles/order.hpp"
 #include "kernels/linear/cluster_matrix.hpp"
 #include "kernels/linear/vectors.hpp"
 

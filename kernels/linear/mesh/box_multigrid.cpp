@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "cellgrid/launch.hpp"
+#include "cellgrid/parallel/launch.hpp"
 
 namespace freshet::linear {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "cellgrid/clusters.hpp"
-#include "cellgrid/launch.hpp"
+#include "cellgrid/particles/clusters.hpp"
+#include "cellgrid/parallel/launch.hpp"
 #include "kernels/linear/mesh/mesh_passes.hpp"
 
 namespace freshet::linear {

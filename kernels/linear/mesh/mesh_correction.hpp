@@ -5,7 +5,7 @@
 // other. A periodic axis closes with a cell as wide as is left. All passes are by rows of cells or blocks of points, without atomics:
 // results do not depend on the number of threads. Templates are defined in mesh_passes.hpp, for the files that use them.
 #pragma once
-#include "cellgrid/near.hpp"
+#include "cellgrid/particles/near.hpp"
 #include "kernels/linear/mesh/box_multigrid.hpp"
 
 namespace freshet::linear {

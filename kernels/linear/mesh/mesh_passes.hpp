@@ -1,6 +1,6 @@
 // The passes of MeshCorrection from points to its nodes, for what functions of the point its users carry.
 #pragma once
-#include "cellgrid/launch.hpp"
+#include "cellgrid/parallel/launch.hpp"
 #include "kernels/linear/mesh/mesh_correction.hpp"
 
 namespace freshet::linear {

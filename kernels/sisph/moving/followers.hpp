@@ -2,8 +2,8 @@
 // where it stood at t = 0, and keeps its depth. Water that the sides would not follow runs into them on one side and away on the other.
 // Reads ids (0 ... particles - 1, in the order of places at t = 0), so that nothing of it is state. Nothing is launched where none follows.
 #pragma once
-#include "cellgrid/order.hpp"
-#include "cellgrid/vec.hpp"
+#include "cellgrid/particles/order.hpp"
+#include "cellgrid/simd/vec.hpp"
 
 namespace freshet::sisph {
 

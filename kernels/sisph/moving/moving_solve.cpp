@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cellgrid/launch.hpp"
+#include "cellgrid/parallel/launch.hpp"
 #include "kernels/linear/pair_product.hpp"
 #include "kernels/sisph/moving/moving_loops.hpp"
 

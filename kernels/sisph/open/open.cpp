@@ -1,7 +1,7 @@
 #include "kernels/sisph/open/open.hpp"
 
-#include "cellgrid/launch.hpp"
-#include "cellgrid/on_device.hpp"
+#include "cellgrid/parallel/launch.hpp"
+#include "cellgrid/parallel/on_device.hpp"
 #include "kernels/sisph/open/open_fit.hpp"
 
 namespace freshet::sisph {

@@ -2,9 +2,9 @@
 
 #include <type_traits>
 
-#include "cellgrid/lanes.hpp"
-#include "cellgrid/launch.hpp"
-#include "cellgrid/on_device.hpp"
+#include "cellgrid/simd/lanes.hpp"
+#include "cellgrid/parallel/launch.hpp"
+#include "cellgrid/parallel/on_device.hpp"
 
 namespace freshet::sisph {
 namespace {

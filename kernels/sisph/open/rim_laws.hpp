@@ -3,7 +3,7 @@
 #pragma once
 #include <vector>
 
-#include "kernels/open/in_time.hpp"
+#include "kernels/boundaries/open/in_time.hpp"
 
 namespace freshet::sisph {
 

@@ -1,6 +1,6 @@
 #include "kernels/sisph/pairs/active.hpp"
 
-#include "cellgrid/launch.hpp"
+#include "cellgrid/parallel/launch.hpp"
 
 namespace freshet::sisph {
 

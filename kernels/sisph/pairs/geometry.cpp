@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "cellgrid/launch.hpp"
+#include "cellgrid/parallel/launch.hpp"
 
 namespace freshet::sisph {
 namespace {

@@ -5,8 +5,8 @@
 // n_ij points from i to j; A_ij = A_ji and n_ij = -n_ji to the bit. Held particles (a rim that keeps its state) have the
 // values of a lattice. Source: docs/formulas/sisph.md (I2) to (I6).
 #pragma once
-#include "cellgrid/pairs.hpp"
-#include "cellgrid/sums.hpp"
+#include "cellgrid/particles/pairs.hpp"
+#include "cellgrid/particles/sums.hpp"
 #include "kernels/sisph/pairs/pair_shape.hpp"
 #include "kernels/sisph/walls/images.hpp"
 #include "kernels/sisph/walls/mirror_walls.hpp"

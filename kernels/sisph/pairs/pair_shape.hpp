@@ -2,7 +2,7 @@
 // multipliers of closure.hpp. The one source of what geometry.cpp stores and coefficients.hpp finds anew. Padding, a particle with
 // itself, has G = W = 0 and is 1 m apart, so that it can be divided by.
 #pragma once
-#include "cellgrid/vec.hpp"
+#include "cellgrid/simd/vec.hpp"
 #include "kernels/smoothing/smoothing.hpp"
 
 namespace freshet::sisph {

@@ -2,7 +2,7 @@
 #pragma once
 #include <utility>
 
-#include "cellgrid/pairs.hpp"
+#include "cellgrid/particles/pairs.hpp"
 
 namespace freshet::sisph {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "cellgrid/launch.hpp"
+#include "cellgrid/parallel/launch.hpp"
 #include "kernels/sisph/surface/surface_loops.hpp"
 
 namespace freshet::sisph {

@@ -1,6 +1,6 @@
 #include "kernels/sisph/velocity/friction.hpp"
 
-#include "cellgrid/launch.hpp"
+#include "cellgrid/parallel/launch.hpp"
 
 namespace freshet::sisph {
 

@@ -1,7 +1,7 @@
 #include "kernels/sisph/velocity/mass_flux.hpp"
 
-#include "cellgrid/assign.hpp"
-#include "cellgrid/launch.hpp"
+#include "cellgrid/parallel/assign.hpp"
+#include "cellgrid/parallel/launch.hpp"
 
 namespace freshet::sisph {
 namespace {

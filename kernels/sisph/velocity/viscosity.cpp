@@ -1,6 +1,6 @@
 #include "kernels/sisph/velocity/viscosity.hpp"
 
-#include "cellgrid/launch.hpp"
+#include "cellgrid/parallel/launch.hpp"
 #include "kernels/sisph/pairs/parts.hpp"
 
 namespace freshet::sisph {

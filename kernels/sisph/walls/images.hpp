@@ -1,8 +1,8 @@
 // Mirror images behind walls. An image has the scalars of its source particle and its vectors reflected; they stand in slots
 // behind the particles of every vector field that pairs read, refreshed by fill(). Nothing is launched where no wall is near.
 #pragma once
-#include "cellgrid/launch.hpp"
-#include "cellgrid/vec.hpp"
+#include "cellgrid/parallel/launch.hpp"
+#include "cellgrid/simd/vec.hpp"
 
 namespace freshet::sisph {
 

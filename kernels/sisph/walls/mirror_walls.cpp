@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "cellgrid/on_device.hpp"
+#include "cellgrid/parallel/on_device.hpp"
 
 namespace freshet::sisph {
 namespace {

@@ -7,9 +7,9 @@
 #include <functional>
 #include <vector>
 
-#include "cellgrid/pairs.hpp"
+#include "cellgrid/particles/pairs.hpp"
 #include "kernels/sisph/walls/images.hpp"
-#include "kernels/walls/piece_bins.hpp"
+#include "kernels/boundaries/walls/piece_bins.hpp"
 
 namespace freshet::sisph {
 

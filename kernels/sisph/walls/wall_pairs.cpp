@@ -1,5 +1,5 @@
 // Which pairs of particles walls part, and which have images.
-#include "cellgrid/launch.hpp"
+#include "cellgrid/parallel/launch.hpp"
 #include "kernels/sisph/walls/mirror_walls.hpp"
 
 namespace freshet::sisph {

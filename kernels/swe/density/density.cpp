@@ -1,6 +1,6 @@
 #include "kernels/swe/density/density.hpp"
 
-#include "cellgrid/launch.hpp"
+#include "cellgrid/parallel/launch.hpp"
 #include "kernels/swe/density/density_sums.hpp"
 #include "kernels/swe/density/least_squares.hpp"
 

@@ -2,7 +2,7 @@
 // and the least-squares gradient of v: docs/formulas/swe.md (S7) to (S14).
 #pragma once
 #include "kernels/swe/particles.hpp"
-#include "kernels/walls/walls.hpp"
+#include "kernels/boundaries/walls/walls.hpp"
 
 namespace freshet::swe {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include "kernels/swe/density/density.hpp"
 #include "kernels/swe/density/least_squares.hpp"
-#include "kernels/swe/single.hpp"
+#include "kernels/swe/single_precision.hpp"
 
 namespace freshet::swe {
 namespace {

@@ -1,6 +1,6 @@
 #include "kernels/swe/density/depth_gradient.hpp"
 
-#include "cellgrid/launch.hpp"
+#include "cellgrid/parallel/launch.hpp"
 #include "kernels/swe/density/least_squares.hpp"
 
 namespace freshet::swe {

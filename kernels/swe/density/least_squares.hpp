@@ -1,6 +1,6 @@
 // Weighted sums of least-squares gradients: A = sum w x_ji (x) x_ji, and its inverse where the neighbours span the space.
 #pragma once
-#include "cellgrid/clusters.hpp"
+#include "cellgrid/particles/clusters.hpp"
 
 namespace freshet::swe {
 

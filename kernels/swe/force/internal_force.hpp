@@ -3,7 +3,7 @@
 #pragma once
 #include "kernels/swe/force/stabilisation.hpp"
 #include "kernels/swe/particles.hpp"
-#include "kernels/walls/walls.hpp"
+#include "kernels/boundaries/walls/walls.hpp"
 
 namespace freshet::swe {
 

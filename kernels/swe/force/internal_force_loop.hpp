@@ -1,8 +1,8 @@
 // The pair loop of internal_force.hpp.
 #pragma once
-#include "cellgrid/launch.hpp"
+#include "cellgrid/parallel/launch.hpp"
 #include "kernels/swe/force/force_request.hpp"
-#include "kernels/swe/single.hpp"
+#include "kernels/swe/single_precision.hpp"
 
 namespace freshet::swe {
 

@@ -1,11 +1,11 @@
 // What a pair's pressures become under each stabilisation (thesis 2.7; docs/formulas/swe.md (S15) to (S20)).
 // To add one, write its struct and name it in the variant: name and title are what a scene says and what the program
-// shows, keys(k) the keys of its own (kernels/choice.hpp), flops what it adds to a pair (cellgrid/work.hpp). Of those
+// shows, keys(k) the keys of its own (kernels/choice.hpp), flops what it adds to a pair (cellgrid/parallel/work.hpp). Of those
 // with the same name the first that fits the key 'muscl' is taken.
 #pragma once
 #include <variant>
 
-#include "cellgrid/lanes.hpp"
+#include "cellgrid/simd/lanes.hpp"
 
 namespace freshet::swe {
 

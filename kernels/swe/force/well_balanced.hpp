@@ -7,7 +7,7 @@
 // the exact depth at the start (density.hpp).
 #pragma once
 #include "kernels/swe/motion.hpp"
-#include "kernels/walls/walls.hpp"
+#include "kernels/boundaries/walls/walls.hpp"
 
 namespace freshet::swe {
 

@@ -1,7 +1,7 @@
 // Open boundary: one or more straight pieces that share what is imposed (a total discharge, say), and the account of the water
 // that passed. Each step: inner states are observed, the law of the kind gives the exterior states, the buffers apply them.
 #pragma once
-#include "kernels/open/states.hpp"
+#include "kernels/boundaries/open/states.hpp"
 #include "kernels/swe/open/buffer.hpp"
 
 namespace freshet::swe {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cellgrid/launch.hpp"
-#include "cellgrid/on_device.hpp"
+#include "cellgrid/parallel/launch.hpp"
+#include "cellgrid/parallel/on_device.hpp"
 #include "kernels/swe/open/exterior.hpp"
 #include "kernels/water/ids.hpp"
 

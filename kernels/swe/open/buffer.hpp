@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "cellgrid/sums.hpp"
+#include "cellgrid/particles/sums.hpp"
 #include "kernels/swe/motion.hpp"
 #include "kernels/swe/open/section.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <type_traits>
 
-#include "cellgrid/launch.hpp"
-#include "cellgrid/on_device.hpp"
+#include "cellgrid/parallel/launch.hpp"
+#include "cellgrid/parallel/on_device.hpp"
 
 namespace freshet::swe {
 namespace {

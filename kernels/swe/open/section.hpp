@@ -3,7 +3,7 @@
 #pragma once
 #include <vector>
 
-#include "kernels/open/states.hpp"
+#include "kernels/boundaries/open/states.hpp"
 
 namespace freshet::swe {
 

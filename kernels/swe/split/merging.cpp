@@ -1,5 +1,5 @@
 // Refinement: merging.
-#include "cellgrid/launch.hpp"
+#include "cellgrid/parallel/launch.hpp"
 #include "kernels/swe/split/refinement.hpp"
 
 namespace freshet::swe {

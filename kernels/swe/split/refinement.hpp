@@ -8,7 +8,7 @@
 #include "kernels/ground/regions.hpp"
 #include "kernels/swe/particles.hpp"
 #include "kernels/swe/split/pattern.hpp"
-#include "kernels/walls/walls.hpp"
+#include "kernels/boundaries/walls/walls.hpp"
 
 namespace freshet::swe {
 

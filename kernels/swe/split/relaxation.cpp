@@ -1,5 +1,5 @@
 // Refinement: the smoothing length follows the mass of the particles around.
-#include "cellgrid/launch.hpp"
+#include "cellgrid/parallel/launch.hpp"
 #include "kernels/swe/split/refinement.hpp"
 
 namespace freshet::swe {

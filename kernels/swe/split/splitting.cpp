@@ -1,8 +1,8 @@
 // Refinement: splitting.
 #include <Kokkos_Sort.hpp>
 
-#include "cellgrid/assign.hpp"
-#include "cellgrid/launch.hpp"
+#include "cellgrid/parallel/assign.hpp"
+#include "cellgrid/parallel/launch.hpp"
 #include "kernels/swe/split/refinement.hpp"
 #include "kernels/water/ids.hpp"
 

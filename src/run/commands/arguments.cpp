@@ -4,7 +4,7 @@
 #include <charconv>
 
 #include "src/errors.hpp"
-#include "src/scene/diagnostics.hpp"
+#include "src/scene/toml/diagnostics.hpp"
 
 namespace freshet {
 namespace {

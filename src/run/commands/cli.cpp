@@ -6,7 +6,7 @@
 #include "kernels/water/ids.hpp"
 #include "src/errors.hpp"
 #include "src/run/commands/commands.hpp"
-#include "src/scene/diagnostics.hpp"
+#include "src/scene/toml/diagnostics.hpp"
 #include "src/text.hpp"
 
 namespace freshet {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "src/method.hpp"
+#include "src/methods/method.hpp"
 
 namespace freshet {
 

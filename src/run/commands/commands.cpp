@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <thread>
 
-#include "cellgrid/types.hpp"
+#include "cellgrid/parallel/types.hpp"
 #include "src/errors.hpp"
 #include "src/io/files.hpp"
 #include "src/run/commands/signals.hpp"

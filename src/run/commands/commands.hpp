@@ -2,7 +2,7 @@
 #pragma once
 #include <memory>
 
-#include "cellgrid/runtime.hpp"
+#include "cellgrid/parallel/runtime.hpp"
 #include "src/run/commands/arguments.hpp"
 #include "src/run/commands/cli.hpp"
 

@@ -11,7 +11,7 @@
 #include "src/io/h5part.hpp"
 #include "src/io/build.hpp"
 #include "src/run/commands/commands.hpp"
-#include "src/scene/diagnostics.hpp"
+#include "src/scene/toml/diagnostics.hpp"
 #include "src/scene/read.hpp"
 #include "src/text.hpp"
 

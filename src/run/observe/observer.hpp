@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "src/io/checkpoint.hpp"
-#include "src/method.hpp"
+#include "src/methods/method.hpp"
 #include "src/run/observe/events.hpp"
 #include "src/run/observe/report.hpp"
 

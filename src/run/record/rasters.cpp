@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "cellgrid/assign.hpp"
+#include "cellgrid/parallel/assign.hpp"
 #include "src/io/ascii_grid.hpp"
 
 namespace freshet {

@@ -1,6 +1,6 @@
 #include "src/run/record/run_ups.hpp"
 
-#include "cellgrid/on_device.hpp"
+#include "cellgrid/parallel/on_device.hpp"
 
 namespace freshet {
 

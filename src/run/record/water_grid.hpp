@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "kernels/water/raster.hpp"
-#include "src/method.hpp"
+#include "src/methods/method.hpp"
 
 namespace freshet {
 

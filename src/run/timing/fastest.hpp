@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "cellgrid/types.hpp"
+#include "cellgrid/parallel/types.hpp"
 
 namespace freshet {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "cellgrid/lanes.hpp"
-#include "cellgrid/launch.hpp"
+#include "cellgrid/simd/lanes.hpp"
+#include "cellgrid/parallel/launch.hpp"
 #include "src/run/timing/fastest.hpp"
 
 namespace freshet {

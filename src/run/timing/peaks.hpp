@@ -11,7 +11,7 @@ struct Peaks {
 // Takes about 0.4 s and 192 MB.
 Peaks measure_peaks();
 
-// What peaks.flops is made of [1/s]: on so many threads at once, each in registers of the widest kind (cellgrid/registers.hpp).
+// What peaks.flops is made of [1/s]: on so many threads at once, each in registers of the widest kind (cellgrid/simd/registers.hpp).
 double multiply_add_rate(int tasks);
 
 // The clock [1/s]: whole numbers added one after the other, a cycle each.

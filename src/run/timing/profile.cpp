@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "cellgrid/runtime.hpp"
+#include "cellgrid/parallel/runtime.hpp"
 #include "src/run/timing/launch_times.hpp"
 
 namespace freshet {

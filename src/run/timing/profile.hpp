@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "cellgrid/work.hpp"
+#include "cellgrid/parallel/work.hpp"
 #include "src/run/driver.hpp"
 #include "src/run/timing/peaks.hpp"
 
@@ -18,7 +18,7 @@ struct PassProfile {
 
 struct RunProfile {
   std::string scene, method, backend, registers;
-  std::string better;  // what to do for wider registers, where the machine has them (cellgrid/runtime.hpp)
+  std::string better;  // what to do for wider registers, where the machine has them (cellgrid/parallel/runtime.hpp)
   int threads = 0;
   long first_step = 0, steps = 0;
   double particle_steps = 0;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "cellgrid/clusters.hpp"
+#include "cellgrid/particles/clusters.hpp"
 #include "src/errors.hpp"
 #include "src/io/fluid.hpp"
 
