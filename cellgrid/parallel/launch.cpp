@@ -5,7 +5,7 @@ namespace freshet {
 namespace {
 
 // The range in parts of equal size, the last one what is left.
-struct Parts {
+struct Partition {
   AnyBody body;
   int begin, end, size;
 
@@ -17,7 +17,7 @@ struct Parts {
 };
 
 template <class Policy>
-Parts cut(const Policy& range, const AnyBody& body, int size) {
+Partition cut(const Policy& range, const AnyBody& body, int size) {
   return {body, static_cast<int>(range.begin()), static_cast<int>(range.end()), larger(size, 1)};
 }
 
@@ -25,12 +25,12 @@ Parts cut(const Policy& range, const AnyBody& body, int size) {
 
 void launch_any(const char* label, const Range& range, const AnyBody& body) {
   const int threads = Exec().concurrency(), length = static_cast<int>(range.end() - range.begin());
-  const Parts parts = cut(range, body, (length + threads - 1) / threads);
+  const Partition parts = cut(range, body, (length + threads - 1) / threads);
   Kokkos::parallel_for(label, Range(0, parts.count()), parts);
 }
 
 void launch_any(const char* label, const DynamicRange& range, const AnyBody& body) {
-  const Parts parts = cut(range, body, static_cast<int>(range.chunk_size()));
+  const Partition parts = cut(range, body, static_cast<int>(range.chunk_size()));
   Kokkos::parallel_for(label, DynamicRange(0, parts.count(), Kokkos::ChunkSize(1)), parts);
 }
 

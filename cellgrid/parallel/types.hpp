@@ -79,12 +79,12 @@ auto on_host(const View& view) {
 }
 
 // A named span in the profile: lives as long as the scope.
-class Region {
+class TimedRegion {
  public:
-  explicit Region(const char* label) { Kokkos::Profiling::pushRegion(label); }
-  ~Region() { Kokkos::Profiling::popRegion(); }
-  Region(const Region&) = delete;
-  Region& operator=(const Region&) = delete;
+  explicit TimedRegion(const char* label) { Kokkos::Profiling::pushRegion(label); }
+  ~TimedRegion() { Kokkos::Profiling::popRegion(); }
+  TimedRegion(const TimedRegion&) = delete;
+  TimedRegion& operator=(const TimedRegion&) = delete;
 };
 
 // Ternaries rather than std::min/max: they vectorise and compile for devices.

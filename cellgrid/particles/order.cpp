@@ -237,7 +237,7 @@ void RowOrder::place(const FieldSet& particles, int cells) {
 }
 
 void RowOrder::sort(FieldSet& particles) {
-  const Region region("cellgrid::sort");
+  const TimedRegion region("cellgrid::sort");
   x_ = particles.real("x");
   y_ = dimension_ == 2 ? particles.real("y") : Field<double>();
   id_ = particles.integer("id");

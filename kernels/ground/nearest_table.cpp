@@ -7,7 +7,7 @@
 
 namespace freshet {
 
-NearestTable::NearestTable(const std::function<double(double, double)>& value, const Lattice& lattice)
+NearestTable::NearestTable(const std::function<double(double, double)>& value, const Nodes& lattice)
     : per_dx_(1 / lattice.step[0]), per_dy_(1 / lattice.step[1]) {
   constexpr double slack = 1e-9;  // cells: one that only touches the region's edge is left out
   const auto first_of = [&](int k) { return std::floor((lattice.low[k] - lattice.node[k]) / lattice.step[k] + 0.5 + slack); };

@@ -11,14 +11,14 @@ namespace freshet {
 
 class NearestTable {
  public:
-  struct Lattice {
+  struct Nodes {
     std::array<double, 2> low, high;   // m, the region to cover; 1-D: the same y
     std::array<double, 2> node, step;  // m, one of the nodes, and their spacings
   };
 
   NearestTable() = default;  // empty: given() is false and nothing is allocated
   // Samples value(x, y) at the nodes whose cells lie in the region, in part at least.
-  NearestTable(const std::function<double(double, double)>& value, const Lattice& lattice);
+  NearestTable(const std::function<double(double, double)>& value, const Nodes& lattice);
 
   KOKKOS_FORCEINLINE_FUNCTION bool given() const { return nx_ > 0; }
   int points() const { return nx_ * ny_; }

@@ -19,7 +19,7 @@ constexpr int rows_of_block = D == 2 && lanes > 1 ? 2 : 1;
 template <int D>
 constexpr int columns_of_block = lanes / rows_of_block<D>;
 
-struct Blocks {
+struct CellBlocks {
   int i0 = 0, j0 = 0, across = 0, up = 0;  // first cell and row; blocks along x and y
   int count() const { return across * up; }
 };
@@ -44,7 +44,7 @@ struct Block {
 };
 
 template <int D>
-KOKKOS_FORCEINLINE_FUNCTION Block<D> block_at(const CellGrid& grid, const Blocks& blocks, int k) {
+KOKKOS_FORCEINLINE_FUNCTION Block<D> block_at(const CellGrid& grid, const CellBlocks& blocks, int k) {
   return {blocks.i0 + k % blocks.across * columns_of_block<D>, blocks.j0 + k / blocks.across * rows_of_block<D>, grid.nx, grid.ny};
 }
 
@@ -56,7 +56,7 @@ KOKKOS_INLINE_FUNCTION Vec<Lane, D> centres(const CellGrid& grid, const Block<D>
 }
 
 // The rectangle of a block's centres.
-struct Span {
+struct Rectangle {
   double xlo, xhi, ylo, yhi;  // m
 };
 
@@ -74,7 +74,7 @@ KOKKOS_FORCEINLINE_FUNCTION void add(const SortedWater<D>& water, int j, const V
 
 // Whether the kernel of fluid particle k reaches the rectangle of centres.
 template <int D>
-KOKKOS_FORCEINLINE_FUNCTION bool covers(const SortedWater<D>& water, int k, const Span& s) {
+KOKKOS_FORCEINLINE_FUNCTION bool covers(const SortedWater<D>& water, int k, const Rectangle& s) {
   const double x = water.x.x(k), along = larger(0.0, larger(s.xlo - x, x - s.xhi)), support = CubicSpline<D>::support * water.h(k);
   double across = 0;
   if constexpr (D == 2) across = larger(0.0, larger(s.ylo - water.x.y(k), water.x.y(k) - s.yhi));
@@ -85,7 +85,7 @@ KOKKOS_FORCEINLINE_FUNCTION bool covers(const SortedWater<D>& water, int k, cons
 template <int D>
 KOKKOS_FORCEINLINE_FUNCTION Cover<D> gather_water(const SortedWater<D>& water, const CellGrid& grid, const Block<D>& block) {
   const Vec<Lane, D> place = centres<D>(grid, block);
-  const Span s{grid.x(block.column(0)), grid.x(block.column(lanes - 1)), grid.y(block.row(0)), grid.y(block.row(lanes - 1))};
+  const Rectangle s{grid.x(block.column(0)), grid.x(block.column(lanes - 1)), grid.y(block.row(0)), grid.y(block.row(lanes - 1))};
   const double far = reach * water.rows.largest_h(s.xlo, s.xhi, s.ylo, s.yhi);
   Cover<D> sums;
   if (!(far > 0)) return sums;
@@ -98,7 +98,7 @@ KOKKOS_FORCEINLINE_FUNCTION Cover<D> gather_water(const SortedWater<D>& water, c
 
 // The blocks around the particles' bounding box, widened by more than a support.
 template <int D>
-Blocks blocks_near(const CellGrid& grid, const Rows& rows) {
+CellBlocks blocks_near(const CellGrid& grid, const Rows& rows) {
   const double margin = std::max(4 * rows.row_height, 1.1 * rows.support);
   const auto cell = [&](double at, double first, double step, int n) {
     return static_cast<int>(std::clamp(std::floor((at - first) / step), 0.0, n - 1.0));
@@ -122,7 +122,7 @@ CoverFields::CoverFields(int cells)
 template <int D>
 CoverFields cover_cells(const CellGrid& grid, const SortedWater<D>& water) {
   const CoverFields out(grid.size());
-  const Blocks blocks = blocks_near<D>(grid, water.rows);
+  const CellBlocks blocks = blocks_near<D>(grid, water.rows);
   const SortedWater<D> w = water;
   launch("raster::cover", DynamicRange(0, blocks.count()), KOKKOS_LAMBDA(int k) {  // dry cells cost next to nothing
         const Block<D> cells = block_at<D>(grid, blocks, k);
@@ -146,13 +146,13 @@ Maxima::Maxima(int cells, double wet_depth)
 namespace {
 
 // How many cells are wet, and the first and last column and row of those.
-struct Wet {
+struct WetExtent {
   int count = 0, west, east, south, north;
 };
 
 template <int D>
-KOKKOS_FORCEINLINE_FUNCTION Wet extent_of(const Block<D>& cells, const Lane& marks) {
-  Wet wet{0, cells.nx, -1, cells.ny, -1};
+KOKKOS_FORCEINLINE_FUNCTION WetExtent extent_of(const Block<D>& cells, const Lane& marks) {
+  WetExtent wet{0, cells.nx, -1, cells.ny, -1};
   for (int l = 0; l < lanes; ++l) {
     if (!(lane_of(marks, l) > 0) || !cells.holds(l)) continue;
     ++wet.count;
@@ -164,7 +164,7 @@ KOKKOS_FORCEINLINE_FUNCTION Wet extent_of(const Block<D>& cells, const Lane& mar
 
 // Takes the cells' sums into the maxima.
 template <int D>
-KOKKOS_FORCEINLINE_FUNCTION Wet take(const Maxima& m, const Block<D>& cells, const Cover<D>& sums, double t) {
+KOKKOS_FORCEINLINE_FUNCTION WetExtent take(const Maxima& m, const Block<D>& cells, const Cover<D>& sums, double t) {
   const Lane covered = select(sums.cover < Lane(edge_cover), Lane(0.0), Lane(1.0));
   const Lane depth = covered * mean(sums.depth, sums.cover);
   cells.store(m.depth, larger(cells.load(m.depth), depth));
@@ -183,7 +183,7 @@ KOKKOS_FORCEINLINE_FUNCTION Wet take(const Maxima& m, const Block<D>& cells, con
 
 template <int D>
 Front track_maxima(const CellGrid& grid, const SortedWater<D>& water, double t, const Maxima& maxima) {
-  const Blocks blocks = blocks_near<D>(grid, water.rows);
+  const CellBlocks blocks = blocks_near<D>(grid, water.rows);
   const SortedWater<D> w = water;
   const Maxima m = maxima;
   int count = 0, i_low = grid.nx, i_high = -1, j_low = grid.ny, j_high = -1;
@@ -193,7 +193,7 @@ Front track_maxima(const CellGrid& grid, const SortedWater<D>& water, double t, 
         const Block<D> cells = block_at<D>(grid, blocks, k);
         const Cover<D> sums = gather_water(w, grid, cells);
         if (!any(Lane(edge_cover) < sums.cover)) return;
-        const Wet here = take(m, cells, sums, t);
+        const WetExtent here = take(m, cells, sums, t);
         wet += here.count;
         west = smaller(west, here.west), east = larger(east, here.east);
         south = smaller(south, here.south), north = larger(north, here.north);

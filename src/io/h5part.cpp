@@ -29,9 +29,9 @@ std::vector<int> step_numbers(const hdf5::File& file) {
 }
 
 // What a step may hold of the water's particles, by the names of [output] fields.
-class Columns {
+class StepColumns {
  public:
-  Columns(const FieldSet& fields, double spacing) : fields_(fields), spacing_(spacing) {}
+  StepColumns(const FieldSet& fields, double spacing) : fields_(fields), spacing_(spacing) {}
 
   // Those wanted, each once, or of the usual ones those that the method has.
   std::vector<std::string> those_of(const std::optional<std::vector<std::string>>& wanted) const {
@@ -116,10 +116,10 @@ std::vector<std::string> in_order(std::vector<std::string> names) {
 void ParticleFile::create(const std::string& scene_text, const std::string& version,
                           const FieldSet& fields) const {
   require_space(folder_of(path_), metadata_bytes + scene_text.size());
-  const Columns columns(fields, spacing_);
+  const StepColumns columns(fields, spacing_);
   std::string units = "x m, y m, ";
   for (const std::string& name : columns.those_of(wanted_))
-    units += Columns::dataset(name) + ' ' + columns.unit(name) + ", ";
+    units += StepColumns::dataset(name) + ' ' + columns.unit(name) + ", ";
   auto file = hdf5::File::make(path_);
   {
     const auto about = file.create("freshet");
@@ -131,7 +131,7 @@ void ParticleFile::create(const std::string& scene_text, const std::string& vers
 }
 
 void ParticleFile::append(int step, double t, const FieldSet& fields) const {
-  const Columns columns(fields, spacing_);
+  const StepColumns columns(fields, spacing_);
   const std::vector<std::string> names = columns.those_of(wanted_);
   const std::vector<int> water = fluid_indices(fields);
   reserve_space(path_, metadata_bytes + water.size() * (2 * 8 + 4 * (names.size() + 1)));

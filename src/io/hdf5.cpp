@@ -121,7 +121,7 @@ void Group::remove(const std::string& name) const {
 namespace {
 
 // The reason must be asked for before any handle closes: that clears HDF5's error stack.
-struct Place {
+struct ObjectPlace {
   std::int64_t in;          // group or object
   const std::string& name;  // of the data set or attribute in it
   const std::string& where;
@@ -131,7 +131,7 @@ struct Place {
   }
 };
 
-void write_set(const Place& at, const void* values, std::size_t count, hid_t from, hid_t stored) {
+void write_set(const ObjectPlace& at, const void* values, std::size_t count, hid_t from, hid_t stored) {
   const hsize_t extent = count;
   Handle space(H5Screate_simple(1, &extent, nullptr), close_space);
   at.expect(space.id(), "cannot size");
@@ -143,7 +143,7 @@ void write_set(const Place& at, const void* values, std::size_t count, hid_t fro
 }
 
 template <class T>
-std::vector<T> read_set(const Place& at, hid_t into) {
+std::vector<T> read_set(const ObjectPlace& at, hid_t into) {
   Handle set(H5Dopen2(at.in, at.name.c_str(), H5P_DEFAULT), close_set);
   at.expect(set.id(), "has no");
   Handle space(H5Dget_space(set.id()), close_space);
@@ -154,7 +154,7 @@ std::vector<T> read_set(const Place& at, hid_t into) {
   return values;
 }
 
-void write_attribute(const Place& at, hid_t type, const void* value) {
+void write_attribute(const ObjectPlace& at, hid_t type, const void* value) {
   if (H5Aexists(at.in, at.name.c_str()) > 0) H5Adelete(at.in, at.name.c_str());
   Handle space(H5Screate(H5S_SCALAR), close_space);
   Handle attribute(H5Acreate2(at.in, at.name.c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT),

@@ -10,7 +10,7 @@ constexpr int ghosts = 2;
 constexpr double cfl = 0.4;
 constexpr double dry = 1e-9;  // of the deepest water: thinner water does not move
 
-struct Water {
+struct RadialWater {
   std::vector<double> depth, discharge;  // m, m2/s
 };
 
@@ -64,7 +64,7 @@ class RadialSweep {
  private:
   static std::size_t at(int k) { return static_cast<std::size_t>(k + ghosts); }
   double radius(int face) const { return plane_ ? 1 : face * ring_; }
-  Water empty() const {
+  RadialWater empty() const {
     const std::vector<double> zero(static_cast<std::size_t>(n_ + 2 * ghosts));
     return {zero, zero};
   }
@@ -82,7 +82,7 @@ class RadialSweep {
   }
 
   // Symmetric about the centre, constant beyond the rim; velocities and limited slopes.
-  void prepare(Water& w) {
+  void prepare(RadialWater& w) {
     for (int k = 0; k < ghosts; ++k) {
       w.depth[at(-1 - k)] = w.depth[at(k)];
       w.discharge[at(-1 - k)] = -w.discharge[at(k)];
@@ -104,14 +104,14 @@ class RadialSweep {
     return most;
   }
 
-  void find_fluxes(const Water& w) {
+  void find_fluxes(const RadialWater& w) {
     for (std::size_t k = ghosts; k < w.depth.size() - ghosts + 1; ++k)
       flux_[k] = hll(w.depth[k - 1] + 0.5 * depth_slope_[k - 1], speed_[k - 1] + 0.5 * speed_slope_[k - 1],
                      w.depth[k] - 0.5 * depth_slope_[k], speed_[k] - 0.5 * speed_slope_[k], g_);
   }
 
   // to = from + dt (-d(r F)/dr + source) / r; the pressure on the sides of the ring balances that on its ends in still water.
-  void advance(const Water& from, double dt, Water& to) {
+  void advance(const RadialWater& from, double dt, RadialWater& to) {
     find_fluxes(from);
     for (int k = 0; k < n_; ++k) {
       const std::size_t i = at(k);
@@ -124,7 +124,7 @@ class RadialSweep {
   }
 
   void heun(double dt) {
-    Water ahead = now_;
+    RadialWater ahead = now_;
     advance(now_, dt, ahead);
     prepare(ahead);
     advance(ahead, dt, ahead_);
@@ -137,7 +137,7 @@ class RadialSweep {
   bool plane_;  // else rings
   int n_;
   double ring_, g_, least_ = 0;
-  Water now_, ahead_ = empty();
+  RadialWater now_, ahead_ = empty();
   std::vector<double> speed_, depth_slope_, speed_slope_;
   std::vector<Flux> flux_;
 };

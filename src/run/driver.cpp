@@ -63,7 +63,7 @@ void Driver::step() {
   const Stride stride = stride_towards(event, clock_, stable);
   for (const auto& one : observers_) one->before_step(method_, clock_, stride);
   {
-    const Region region("run::step");
+    const TimedRegion region("run::step");
     method_.step(clock_.t, stride.dt);
   }
   clock_ = {stride.until, clock_.step + 1, stride.dt};
@@ -71,7 +71,7 @@ void Driver::step() {
 }
 
 void Driver::observe() {
-  const Region region("run::observe");
+  const TimedRegion region("run::observe");
   for (const auto& one : observers_) one->after_step(method_, clock_);
 }
 
@@ -87,7 +87,7 @@ void Driver::take() {
 }
 
 void Driver::write_state(const std::string& name) {
-  const Region region("run::output");
+  const TimedRegion region("run::output");
   const std::string scene_file = scene_.file.empty() ? "" : std::filesystem::absolute(scene_.file).string();
   write_checkpoint(path_in(options_.directory, name),
                    {scene_file, scene_.text, run_values(), method_.scalars()}, method_.fields());

@@ -37,7 +37,7 @@ class PieceBins {
   template <class See>
   KOKKOS_FORCEINLINE_FUNCTION void for_each(const Box& box, const See& see) const {
     if (!reaches(box)) return;
-    const Cells c = cells_in(box);
+    const CellRange c = cells_in(box);
     if (entries_in(c) == 0) return;
     const int cells = c.count();
     const bool one = cells == 1, all = cells >= size_;
@@ -54,7 +54,7 @@ class PieceBins {
   template <class Test>
   KOKKOS_INLINE_FUNCTION bool any(const Box& box, const Test& test) const {
     if (!reaches(box)) return false;
-    const Cells c = cells_in(box);
+    const CellRange c = cells_in(box);
     for (int j = c.j0; j <= c.j1; ++j)
       for (int n = first_(at(c.i0, j)), end = first_(at(c.i1, j) + 1); n < end; ++n)
         if (test(list_(n))) return true;
@@ -62,7 +62,7 @@ class PieceBins {
   }
 
  private:
-  struct Cells {
+  struct CellRange {
     int i0, i1, j0, j1;  // first and last columns and rows
     KOKKOS_FORCEINLINE_FUNCTION int count() const { return (i1 - i0 + 1) * (j1 - j0 + 1); }
   };
@@ -81,18 +81,18 @@ class PieceBins {
     const double c = (s - low) * per_cell_;
     return c > 0 ? (c < n ? static_cast<int>(c) : n - 1) : 0;
   }
-  KOKKOS_FORCEINLINE_FUNCTION Cells cells_in(const Box& b) const {
+  KOKKOS_FORCEINLINE_FUNCTION CellRange cells_in(const Box& b) const {
     return {cell(b.xlo, bounds_.xlo, nx_), cell(b.xhi, bounds_.xlo, nx_), cell(b.ylo, bounds_.ylo, ny_),
             cell(b.yhi, bounds_.ylo, ny_)};
   }
-  KOKKOS_FORCEINLINE_FUNCTION int entries_in(const Cells& c) const {
+  KOKKOS_FORCEINLINE_FUNCTION int entries_in(const CellRange& c) const {
     int count = 0;
     for (int j = c.j0; j <= c.j1; ++j) count += first_(at(c.i1, j) + 1) - first_(at(c.i0, j));
     return count;
   }
 
   // The first piece of the cells behind piece `last`, size() if there is none. Lists ascend: bisection.
-  KOKKOS_INLINE_FUNCTION int next(const Cells& c, int last) const {
+  KOKKOS_INLINE_FUNCTION int next(const CellRange& c, int last) const {
     int best = size_;
     for (int j = c.j0; j <= c.j1; ++j)
       for (int i = c.i0; i <= c.i1; ++i) {

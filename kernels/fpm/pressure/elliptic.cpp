@@ -98,7 +98,7 @@ double Poisson<D>::look_at_points() {
 
 template <int D>
 void Poisson<D>::assemble(const StencilView<D>& stencils, const Rows& rows, const PoissonPlaces<D>& places) {
-  const Region region("fpm::assemble");
+  const TimedRegion region("fpm::assemble");
   const Neighbourhood<D>& around = stencils.around;
   around_ = around;
   places_ = places;
@@ -146,7 +146,7 @@ void Poisson<D>::set_right_side(const PoissonData& data, const Field<double>& ps
 
 template <int D>
 PoissonReport Poisson<D>::solve(const PoissonData& data, const Field<double>& psi, const linear::BiCgStabOptions& options) {
-  const Region region("fpm::solve");
+  const TimedRegion region("fpm::solve");
   set_right_side(data, psi);
   PoissonReport report;
   report.unknowns = unknowns_;

@@ -23,7 +23,7 @@ struct FindSources {
 }  // namespace
 
 PoissonReport Projection::pressure_of_flow(const Flow& flow, const Field<double>& pressure) {
-  const Region region("fpm::flow_pressure");
+  const TimedRegion region("fpm::flow_pressure");
   const StencilView<2> view = stencils_.view();
   stencils_.fit(flow.v.x, flow.v_star.x);
   stencils_.fit(flow.v.y, flow.v_star.y);

@@ -92,7 +92,7 @@ double fastest(const Flow& flow) {
 ProjectionReport Projection::advance(const Neighbourhood<2>& around, const Rows& rows, const Flow& flow, const Backward& time) {
   ProjectionReport report;
   {
-    const Region region("fpm::derivatives");
+    const TimedRegion region("fpm::derivatives");
     report.poor = stencils_.find(around).poor;
     find_rows(around, flow);
     guess_pressure(flow);
@@ -102,7 +102,7 @@ ProjectionReport Projection::advance(const Neighbourhood<2>& around, const Rows&
     find_sources(flow, time);
   }
   {
-    const Region region("fpm::pressure");
+    const TimedRegion region("fpm::pressure");
     poisson_.assemble(stencils_.view(), rows, {flow.row, flow.normal});
     linear::BiCgStabOptions options;
     options.tolerance = rule_.tolerance;

@@ -118,7 +118,7 @@ void ImplicitViscosity::multiply(const Field<double>& x, const Field<double>& y)
 
 linear::BiCgStabReport ImplicitViscosity::solve(const StencilView<2>& stencils, const ViscousPlaces& places, double k,
                                                const VecField<double, 2>& v, const VecField<double, 2>& start) {
-  const Region region("fpm::viscosity");
+  const TimedRegion region("fpm::viscosity");
   places_ = places;
   assemble(stencils, k);
   set_right_side(v, start);

@@ -125,7 +125,7 @@ void BinMultigrid::number_bins(BinLevel& level) {
 }
 
 void BinMultigrid::build(const ClusterMatrix& matrix, const Field<int>& free, const Grid& grid, bool singular) {
-  const Region region("multigrid::build");
+  const TimedRegion region("multigrid::build");
   matrix_ = matrix;
   free_ = free;
   rows_ = grid.rows;

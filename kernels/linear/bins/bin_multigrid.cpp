@@ -66,7 +66,7 @@ void add_coarse(int n, const Field<int>& parent, double factor, const Vector& e,
 }  // namespace
 
 void BinMultigrid::operator()(const Vector& r, const Vector& z) {
-  const Region region("multigrid::cycle");
+  const TimedRegion region("multigrid::cycle");
   const Points points{matrix_};
   Vector x = y_, y = z;  // an odd number of sweeps ends in z
   smooth_from_zero(points, r, x, y, options_);

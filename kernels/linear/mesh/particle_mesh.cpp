@@ -6,7 +6,7 @@ namespace freshet::linear {
 namespace {
 
 // The values of wet particles.
-struct Wet {
+struct WetCells {
   Field<double> mass, value;
   KOKKOS_FORCEINLINE_FUNCTION double operator()(int i) const { return mass(i) > 0 ? value(i) : 0.0; }
 };
@@ -23,13 +23,13 @@ struct Conducts {
 template <int D>
 void ParticleMesh<D>::set(const Field<double>& mass, const Field<double>& depth, double k) {
   mass_ = mass;
-  mesh_.set(Wet{mass, mass}, Conducts{mass, depth, k});
+  mesh_.set(WetCells{mass, mass}, Conducts{mass, depth, k});
 }
 
 template <int D>
 double ParticleMesh<D>::operator()(const Vector& r, const Vector& z) {
-  const Region region("particle_mesh");
-  mesh_.solve(Wet{mass_, r});
+  const TimedRegion region("particle_mesh");
+  mesh_.solve(WetCells{mass_, r});
   mesh_.add(z, mass_, z);
   return mesh_.product();
 }

@@ -15,7 +15,7 @@ struct Weighted {
 }  // namespace
 
 void PointMesh::build(const Rows& rows, const VecField<double, 2>& x, int points, const Period& period, const MeshWeights& weights) {
-  const Region region("point_mesh::build");
+  const TimedRegion region("point_mesh::build");
   points_ = points;
   weight_ = weights.weight;
   mesh_.lay(rows, x, points, period);
@@ -26,7 +26,7 @@ void PointMesh::build(const Rows& rows, const VecField<double, 2>& x, int points
 double PointMesh::mean(const Vector& r) { return dot(points_, weight_, r) / total_weight_; }
 
 void PointMesh::operator()(const Vector& r, const Vector& z) {
-  const Region region("point_mesh::cycle");
+  const TimedRegion region("point_mesh::cycle");
   mesh_.solve(Weighted{weight_, r, total_weight_ > 0 ? mean(r) : 0.0});
   mesh_.add(r, weight_, z);
 }

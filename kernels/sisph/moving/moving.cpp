@@ -80,7 +80,7 @@ void MovingWater<D>::make_room() {
 // Pairs that may be within each other's support as long as they approach by less than the skin [m].
 template <int D>
 void MovingWater<D>::list_pairs(const Swarm<D>& now, double skin) {
-  const Region region("sisph::list_pairs");
+  const TimedRegion region("sisph::list_pairs");
   const int n = g_.omega.extent_int(0) - lanes;
   shapes_.h = now.h;
   skin_ = skin;

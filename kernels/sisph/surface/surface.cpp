@@ -183,7 +183,7 @@ void FreeSurface<D>::level_rows(const SliceList& active, const Layer<D>& water) 
 template <int D>
 SurfaceReport FreeSurface<D>::solve(const SliceList& active, const Layer<D>& water, const VecField<double, D>& before, double dt,
                                     bool drying) {
-  const Region region("sisph::free_surface");
+  const TimedRegion region("sisph::free_surface");
   const Norms norms = drying ? find_coefficients<true>(active, water, before, dt) : find_coefficients<false>(active, water, before, dt);
   // Asked for no less than round-off of |b|: water at rest needs no iteration.
   constexpr double round_off = 1e-14;

@@ -85,7 +85,7 @@ Viscosity<D>::Viscosity(const Geometry<D>& g, const ViscosityOptions& options)
 
 template <int D>
 int Viscosity<D>::find(const Layer<D>& water, const Field<double>& drag, const VecField<double, D>& predicted, double dt) {
-  const Region region("sisph::viscosity");
+  const TimedRegion region("sisph::viscosity");
   const Vec<double, D> like;
   fill_images(g_.images, predicted, options_.slip);
   launch("sisph::viscous_pulls", Range(0, g_.slices.count),

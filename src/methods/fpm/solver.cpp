@@ -76,7 +76,7 @@ void FinitePointset::step(double, double dt) {
 }
 
 void FinitePointset::manage_points() {
-  const Region region("fpm::points");
+  const TimedRegion region("fpm::points");
   if (grading_) grading_->size(points_);
   const PointReport managed = management_.manage(points_, order_, next_id_);
   counts_.inserted += managed.step.inserted;

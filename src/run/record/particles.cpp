@@ -23,7 +23,7 @@ void ParticleRecorder::append(const Method& method, const Clock& clock) const {
 }
 
 void ParticleRecorder::take(const Method& method, const Clock& clock) {
-  const Region region("run::output");
+  const TimedRegion region("run::output");
   append(method, clock);
 }
 

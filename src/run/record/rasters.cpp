@@ -78,7 +78,7 @@ void RasterRecorder::after_step(const Method& method, const Clock& clock) {
 }
 
 void RasterRecorder::take(const Method& method, const Clock& clock) {
-  const Region region("run::output");
+  const TimedRegion region("run::output");
   const CoverFields sums = cover_cells(grid_, method);
   for (const Quantity quantity : wanted_.what) {
     if (quantity == Quantity::surface && bed_.empty()) bed_ = bed_levels(grid_, method);

@@ -9,19 +9,19 @@
 namespace freshet {
 namespace {
 
-struct Span {
+struct LineSpan {
   double first, last;  // m, places of the line's ends
 };
-Span span(const Transect& p) {
+LineSpan span(const Transect& p) {
   const double length = std::hypot(p.line[1][0] - p.line[0][0], p.line[1][1] - p.line[0][1]);
-  return p.one_dimensional ? Span{std::min(p.line[0][0], p.line[1][0]), std::max(p.line[0][0], p.line[1][0])}
-                           : Span{0, length};
+  return p.one_dimensional ? LineSpan{std::min(p.line[0][0], p.line[1][0]), std::max(p.line[0][0], p.line[1][0])}
+                           : LineSpan{0, length};
 }
 
 // The places of the measured points that lie on the line.
 std::vector<std::size_t> measured_on_line(const Transect& p) {
   std::vector<std::size_t> found;
-  const Span on = span(p);
+  const LineSpan on = span(p);
   for (std::size_t k = 0; p.measured && k < p.measured->t.size(); ++k)
     if (p.measured->t[k] >= on.first && p.measured->t[k] <= on.last) found.push_back(k);
   return found;
@@ -29,7 +29,7 @@ std::vector<std::size_t> measured_on_line(const Transect& p) {
 
 // m, the points that are written, then the measured ones on the line.
 std::vector<double> places(const Transect& p) {
-  const Span on = span(p);
+  const LineSpan on = span(p);
   const int intervals = std::max(1, static_cast<int>(std::lround((on.last - on.first) / p.spacing)));
   std::vector<double> places;
   for (int k = 0; k <= intervals; ++k) places.push_back(on.first + (on.last - on.first) * k / intervals);

@@ -16,7 +16,7 @@ EnergyWatch::EnergyWatch(const Scene& scene)
 
 void EnergyWatch::after_step(const Method& method, const Clock& clock) {
   if (!closed_ || clock.step % 100 != 0) return;
-  const Region region("run::check");
+  const TimedRegion region("run::check");
   record(method.mechanics(), clock);
 }
 

@@ -188,7 +188,7 @@ void Monitor::begin(const Method& method) {
 }
 
 void Monitor::after_step(const Method& method, const Clock& clock) {
-  const Region region("run::check");
+  const TimedRegion region("run::check");
   check(method, clock);
   if (clock.step % 100 == 0) look(method, clock);
 }

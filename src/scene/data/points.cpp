@@ -16,12 +16,12 @@ constexpr std::size_t neighbours = 8;
 
 // The lattice along one axis, if the coordinates are equally spaced within 2 % of the step (they come
 // rounded).
-struct Axis {
+struct EvenAxis {
   double first = 0, step = 0;
   int count = 0;
 };
 
-std::optional<Axis> find_axis(std::vector<double> coordinates) {
+std::optional<EvenAxis> find_axis(std::vector<double> coordinates) {
   std::sort(coordinates.begin(), coordinates.end());
   const double same = 1e-7 * (coordinates.back() - coordinates.front());
   std::vector<double> distinct;
@@ -30,24 +30,24 @@ std::optional<Axis> find_axis(std::vector<double> coordinates) {
   }
   if (distinct.size() < 2) return std::nullopt;
   const int count = static_cast<int>(distinct.size());
-  const Axis axis{distinct.front(), (distinct.back() - distinct.front()) / (count - 1), count};
+  const EvenAxis axis{distinct.front(), (distinct.back() - distinct.front()) / (count - 1), count};
   for (int k = 0; k < count; ++k) {
     if (std::abs(distinct[k] - axis.first - k * axis.step) > 0.02 * axis.step) return std::nullopt;
   }
   return axis;
 }
 
-int nearest_node(const Axis& axis, double at) {
+int nearest_node(const EvenAxis& axis, double at) {
   return static_cast<int>(std::lround((at - axis.first) / axis.step));
 }
 
 // Points in square bins of about two points each.
 class Scatter {
  public:
-  explicit Scatter(std::vector<BedPoint> points) : points_(std::move(points)) {
+  explicit Scatter(std::vector<SurveyPoint> points) : points_(std::move(points)) {
     low_ = {infinity, infinity};
     Point high{-infinity, -infinity};
-    for (const BedPoint& p : points_) {
+    for (const SurveyPoint& p : points_) {
       low_ = {std::min(low_[0], p.x), std::min(low_[1], p.y)};
       high = {std::max(high[0], p.x), std::max(high[1], p.y)};
     }
@@ -71,7 +71,7 @@ class Scatter {
   }
 
  private:
-  struct Near {
+  struct Neighbour {
     double distance2, z;
   };
 
@@ -100,8 +100,8 @@ class Scatter {
   void visit_bin(int i, int j, double x, double y) {
     for (const std::size_t k : bin(i, j)) {
       const double dx = points_[k].x - x, dy = points_[k].y - y;
-      const Near near{dx * dx + dy * dy, points_[k].z};
-      const auto farther = [](const Near& a, const Near& b) { return a.distance2 < b.distance2; };
+      const Neighbour near{dx * dx + dy * dy, points_[k].z};
+      const auto farther = [](const Neighbour& a, const Neighbour& b) { return a.distance2 < b.distance2; };
       nearest_.insert(std::upper_bound(nearest_.begin(), nearest_.end(), near, farther), near);
       if (nearest_.size() > neighbours) nearest_.pop_back();
     }
@@ -110,30 +110,30 @@ class Scatter {
   double weighted() const {
     if (nearest_.front().distance2 <= 1e-12 * size_ * size_) return nearest_.front().z;
     double sum = 0, weights = 0;
-    for (const Near& near : nearest_) {
+    for (const Neighbour& near : nearest_) {
       sum += near.z / near.distance2;
       weights += 1 / near.distance2;
     }
     return sum / weights;
   }
 
-  std::vector<BedPoint> points_;
+  std::vector<SurveyPoint> points_;
   Point low_{};
   double size_ = 1;
   int nx_ = 1, ny_ = 1;
   std::vector<std::vector<std::size_t>> bins_;
-  std::vector<Near> nearest_;
+  std::vector<Neighbour> nearest_;
 };
 
 }  // namespace
 
-std::vector<BedPoint> read_points(const std::string& path, const std::string& text) {
-  std::vector<BedPoint> points;
+std::vector<SurveyPoint> read_points(const std::string& path, const std::string& text) {
+  std::vector<SurveyPoint> points;
   bool header = false;
   for_each_line(text, [&](int number, const std::string& line) {
     if (is_comment_or_empty(line)) return;
     const std::vector<std::string> cells = split_cells(line);
-    BedPoint p{};
+    SurveyPoint p{};
     const bool place = cells.size() >= 2 && parse_number(cells[0], p.x) && parse_number(cells[1], p.y);
     const bool level = cells.size() >= 3 && parse_number(cells[2], p.z);
     if (place && cells.size() >= 3 && !level && (cells[2] == "nan" || cells[2] == "NaN")) {
@@ -152,9 +152,9 @@ std::vector<BedPoint> read_points(const std::string& path, const std::string& te
   return points;
 }
 
-std::optional<Raster> as_lattice(const std::vector<BedPoint>& points) {
+std::optional<Raster> as_lattice(const std::vector<SurveyPoint>& points) {
   std::vector<double> x, y;
-  for (const BedPoint& p : points) {
+  for (const SurveyPoint& p : points) {
     x.push_back(p.x);
     y.push_back(p.y);
   }
@@ -170,18 +170,18 @@ std::optional<Raster> as_lattice(const std::vector<BedPoint>& points) {
   raster.nx = columns->count;
   raster.ny = rows->count;
   raster.z.assign(nodes, std::numeric_limits<double>::quiet_NaN());
-  for (const BedPoint& p : points) raster.at(nearest_node(*columns, p.x), nearest_node(*rows, p.y)) = p.z;
+  for (const SurveyPoint& p : points) raster.at(nearest_node(*columns, p.x), nearest_node(*rows, p.y)) = p.z;
   return raster;
 }
 
-Function nearest_points(std::vector<BedPoint> points) {
+Function nearest_points(std::vector<SurveyPoint> points) {
   const auto scatter = std::make_shared<Scatter>(std::move(points));
   return [scatter](double x, double y) { return scatter->level(x, y); };
 }
 
-double mean_spacing(const std::vector<BedPoint>& points) {
+double mean_spacing(const std::vector<SurveyPoint>& points) {
   Point low{infinity, infinity}, high{-infinity, -infinity};
-  for (const BedPoint& p : points) {
+  for (const SurveyPoint& p : points) {
     low = {std::min(low[0], p.x), std::min(low[1], p.y)};
     high = {std::max(high[0], p.x), std::max(high[1], p.y)};
   }

@@ -56,7 +56,7 @@ Sheet read_sheet(const std::string& path) {
   return sheet;
 }
 
-std::size_t index_of(const Column& column, const Sheet& sheet, const std::string& path, bool is_time) {
+std::size_t index_of(const SeriesColumn& column, const Sheet& sheet, const std::string& path, bool is_time) {
   const std::string shown = file_name(path);
   if (column.number > 0) {
     const std::size_t count = sheet.rows.front().cells.size();
@@ -73,15 +73,15 @@ std::size_t index_of(const Column& column, const Sheet& sheet, const std::string
   throw NoSuchColumn{is_time, "'" + shown + "' has no column '" + column.name + "'", help};
 }
 
-struct Columns {
+struct SheetColumns {
   std::size_t t, value;
 };
 
-Columns find_columns(const SeriesFile& file, const Sheet& sheet) {
+SheetColumns find_columns(const SeriesFile& file, const Sheet& sheet) {
   return {index_of(file.t, sheet, file.path, true), index_of(file.value, sheet, file.path, false)};
 }
 
-bool read_row(const Row& row, const Columns& columns, double& t, double& value) {
+bool read_row(const Row& row, const SheetColumns& columns, double& t, double& value) {
   return columns.t < row.cells.size() && columns.value < row.cells.size() &&
          parse_number(row.cells[columns.t], t) && parse_number(row.cells[columns.value], value);
 }
@@ -92,7 +92,7 @@ void add(Series& series, const SeriesFile& file, double t, double value) {
 }
 
 // The first cell of a row without numbers, and what to do about it.
-BadData bad_cell(const SeriesFile& file, const Row& row, const Columns& columns) {
+BadData bad_cell(const SeriesFile& file, const Row& row, const SheetColumns& columns) {
   double number;
   std::size_t i = columns.t;
   if (i < row.cells.size() && parse_number(row.cells[i], number)) i = columns.value;
@@ -123,20 +123,20 @@ Series sorted(const Series& series, const std::string& path, std::vector<std::st
   return out;
 }
 
-Value<Column> column(Table& table, const std::string& key, Column fallback) {
+Value<SeriesColumn> column(Table& table, const std::string& key, SeriesColumn fallback) {
   if (table.has_text(key)) {
     const std::string name = table.text(key).required();
-    return {Slot{&table.context(), table.path_of(key), table.place_of(key), true, nullptr}, Column{0, name}};
+    return {Slot{&table.context(), table.path_of(key), table.place_of(key), true, nullptr}, SeriesColumn{0, name}};
   }
   const int number = table.integer(key).at_least(1).otherwise(fallback.number);
-  return {Slot{&table.context(), table.path_of(key), table.place_of(key), true, nullptr}, Column{number, ""}};
+  return {Slot{&table.context(), table.path_of(key), table.place_of(key), true, nullptr}, SeriesColumn{number, ""}};
 }
 
 }  // namespace
 
 Series read_forcing(const SeriesFile& file) {
   const Sheet sheet = read_sheet(file.path);
-  const Columns columns = find_columns(file, sheet);
+  const SheetColumns columns = find_columns(file, sheet);
   Series series;
   for (const Row& row : sheet.rows) {
     double t, value;
@@ -154,7 +154,7 @@ Series read_forcing(const SeriesFile& file) {
 
 Series read_measured(const SeriesFile& file, std::vector<std::string>& notes) {
   const Sheet sheet = read_sheet(file.path);
-  const Columns columns = find_columns(file, sheet);
+  const SheetColumns columns = find_columns(file, sheet);
   Series series;
   std::size_t left_out = 0;
   for (const Row& row : sheet.rows) {
@@ -175,7 +175,7 @@ Series read_measured(const SeriesFile& file, std::vector<std::string>& notes) {
 Series read_series(Table& table, SeriesUse use, const std::string& abscissa) {
   SeriesFile file;
   Value<std::string> path = table.file("file");
-  Value<Column> t = column(table, abscissa, file.t), value = column(table, "value", file.value);
+  Value<SeriesColumn> t = column(table, abscissa, file.t), value = column(table, "value", file.value);
   file.path = path.required();
   file.t = *t.optional();
   file.value = *value.optional();

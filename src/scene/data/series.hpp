@@ -11,14 +11,14 @@ namespace freshet::input {
 
 class Table;
 
-struct Column {
+struct SeriesColumn {
   int number = 0;  // from 1; 0 = by name
   std::string name;
 };
 
 struct SeriesFile {
   std::string path;
-  Column t{1, ""}, value{2, ""};
+  SeriesColumn t{1, ""}, value{2, ""};
   double t_scale = 1, t_offset = 0;  // s per unit of the column, s
   double scale = 1, offset = 0;
 };

@@ -21,13 +21,13 @@ double finite_depth(const Function& depth, double x, double y) {
   return d;
 }
 
-// Cells along one side of the box.
-struct Cells {
+// EvenCells along one side of the box.
+struct EvenCells {
   int n;
   double low, width;
   double centre(int k) const { return low + (k + 0.5) * width; }
 };
-Cells cells_along(const Scene& scene, int axis) {
+EvenCells cells_along(const Scene& scene, int axis) {
   const double length = scene.domain.high[axis] - scene.domain.low[axis], width = cell_width(scene, axis);
   return {static_cast<int>(std::lround(length / width)), scene.domain.low[axis], width};
 }
@@ -72,7 +72,7 @@ std::vector<Placed> place_cells(const Scene& scene, const Function& depth) {
   const WaterRegion water(scene.walls);
   std::vector<Placed> particles;
   const bool plane = scene.domain.dimension == 2;
-  const Cells along_x = cells_along(scene, 0), along_y = plane ? cells_along(scene, 1) : Cells{1, -0.5, 1};
+  const EvenCells along_x = cells_along(scene, 0), along_y = plane ? cells_along(scene, 1) : EvenCells{1, -0.5, 1};
   const double area = along_x.width * along_y.width, disorder = scene.water.disorder;
   const double cells = static_cast<double>(along_x.n) * along_y.n, most = most_particles();
   if (cells > 2e9) refuse_more_than(most, cells, scene);
@@ -99,7 +99,7 @@ std::vector<Placed> place_cells(const Scene& scene, const Function& depth) {
 // a fine raster whose cells divide the spacing, so that a dam between cells stays sharp.
 std::vector<Placed> place_equal_mass(const Scene& scene, const Function& depth) {
   constexpr int fine = 64;
-  Cells raster = cells_along(scene, 0);
+  EvenCells raster = cells_along(scene, 0);
   raster.n *= fine;
   raster.width /= fine;
   double deepest = 0;

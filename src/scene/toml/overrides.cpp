@@ -59,9 +59,9 @@ toml::table* find_element(toml::array& tables, const std::string& label) {
   return nullptr;
 }
 
-class Merge {
+class Merger {
  public:
-  Merge(int source, Diagnostics& diagnostics) : source_(source), diagnostics_(diagnostics) {}
+  Merger(int source, Diagnostics& diagnostics) : source_(source), diagnostics_(diagnostics) {}
 
   void into(toml::table& tree, toml::table& changes, const std::string& path) {
     for (auto&& [key, change] : changes) {
@@ -114,7 +114,7 @@ void apply_overrides(const std::vector<std::string>& overrides, toml::table& tre
       continue;
     }
     std::optional<toml::table> changes = parse(text, source, diagnostics);
-    if (changes) Merge(source, diagnostics).into(tree, *changes, "");
+    if (changes) Merger(source, diagnostics).into(tree, *changes, "");
   }
 }
 

@@ -12,22 +12,22 @@
 namespace freshet::input {
 namespace {
 
-struct Entry {
+struct TableEntry {
   const toml::key* key;
   const toml::node* node;
 };
 
 // Keys of the file by their place; those of the command line, and those without a place, after them.
-std::vector<Entry> in_order(const toml::table& table) {
-  std::vector<Entry> entries;
+std::vector<TableEntry> in_order(const toml::table& table) {
+  std::vector<TableEntry> entries;
   for (auto&& [key, node] : table) entries.push_back({&key, &node});
-  const auto place = [](const Entry& entry) {
+  const auto place = [](const TableEntry& entry) {
     const toml::source_region& source = entry.key->source();
     const std::string path = source.path ? *source.path : "~";
     return std::make_tuple(path.size(), path, source.begin.line, source.begin.column);
   };
   std::stable_sort(entries.begin(), entries.end(),
-                   [&](const Entry& a, const Entry& b) { return place(a) < place(b); });
+                   [&](const TableEntry& a, const TableEntry& b) { return place(a) < place(b); });
   return entries;
 }
 
@@ -57,7 +57,7 @@ std::string inline_form(const toml::array& array) {
 
 std::string inline_form(const toml::table& table) {
   std::string out;
-  for (const Entry& entry : in_order(table)) {
+  for (const TableEntry& entry : in_order(table)) {
     out += (out.empty() ? "" : ", ") + written(*entry.key) + " = " + inline_form(*entry.node);
   }
   return out.empty() ? "{}" : "{ " + out + " }";
@@ -83,12 +83,12 @@ bool is_section_list(const toml::node& node) {
 }
 
 void write_section(std::ostream& out, const toml::table& table, const std::string& path) {
-  const std::vector<Entry> entries = in_order(table);
-  for (const Entry& entry : entries) {
+  const std::vector<TableEntry> entries = in_order(table);
+  for (const TableEntry& entry : entries) {
     if (is_section(*entry.node) || is_section_list(*entry.node)) continue;
     out << written(*entry.key) << " = " << inline_form(*entry.node) << '\n';
   }
-  for (const Entry& entry : entries) {
+  for (const TableEntry& entry : entries) {
     const std::string here = path.empty() ? written(*entry.key) : path + '.' + written(*entry.key);
     if (is_section(*entry.node)) {
       out << "\n[" << here << "]\n";

@@ -76,12 +76,12 @@ FileBed from_raster(Raster raster, const FileOptions& options, const Domain& dom
   return bed;
 }
 
-FileBed from_scatter(std::vector<BedPoint> points, const FileOptions& options, const std::string& name) {
+FileBed from_scatter(std::vector<SurveyPoint> points, const FileOptions& options, const std::string& name) {
   FileBed bed;
   constexpr double infinity = std::numeric_limits<double>::infinity();
   bed.low = {infinity, infinity};
   bed.high = {-infinity, -infinity};
-  for (BedPoint& p : points) {
+  for (SurveyPoint& p : points) {
     p.z = options.factor * p.z + options.offset;
     bed.nodata += std::isnan(p.z) ? 1 : 0;
     if (std::isnan(p.z) && options.fill) p.z = *options.fill;
@@ -103,7 +103,7 @@ FileBed load_bed(const std::string& path, const FileOptions& options, const Doma
   if (looks_like_ascii_grid(text)) {
     return from_raster(load_grid(section, path, text, options.registration), options, domain, name);
   }
-  std::vector<BedPoint> points = read_points(path, text);
+  std::vector<SurveyPoint> points = read_points(path, text);
   if (auto lattice = as_lattice(points)) {
     FileBed bed = from_raster(std::move(*lattice), options, domain, name);
     bed.what += " from x-y-z points";

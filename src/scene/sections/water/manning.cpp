@@ -21,7 +21,7 @@ Value<double> read_n(Table& section, const std::string& key) {
   return n;
 }
 
-struct Region {
+struct RoughRegion {
   std::vector<Point> corners;
   double n = 0;
 
@@ -35,7 +35,7 @@ struct Region {
 Manning read_regions(Table& section, const Scene& scene) {
   const double rest = read_n(section, "default").required();
   const bool line = scene.domain.dimension == 1;
-  std::vector<Region> regions;
+  std::vector<RoughRegion> regions;
   for (std::size_t k = 0; k < section.size_of("regions"); ++k) {
     Table region = section.element("regions", k);
     const std::vector<Point> corners = read_region(region, scene.domain.dimension);
@@ -47,7 +47,7 @@ Manning read_regions(Table& section, const Scene& scene) {
   manning.step = {step, step};
   manning.description = std::to_string(regions.size()) + " regions, elsewhere n = " + shown(rest) + " s/m^(1/3)";
   manning.map = [regions, rest, line](double x, double y) {
-    for (const Region& region : regions)
+    for (const RoughRegion& region : regions)
       if (region.holds(x, y, line)) return region.n;
     return rest;
   };
