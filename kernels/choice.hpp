@@ -1,7 +1,8 @@
-// A choice that a scene makes is a variant of structs, each of which carries its `name`, the word by which a scene asks for it,
-// what it does, and keys(k), which names the keys of its own to whoever visits them (the reader, the read-back): see
-// kernels/swe/force/stabilisation.hpp. A struct without keys of its own needs no keys(k). Where choices differ in a few values
-// alone, it is one of a list of rows with a `name`: kernels/fpm/pressure/pressure_scheme.hpp.
+// A choice that a scene makes is a variant of structs, each of which carries its `name`, the word by which a
+// scene asks for it, what it does, and keys(k), which names the keys of its own to whoever visits them (the
+// reader, the read-back): see kernels/swe/force/stabilisation.hpp. A struct without keys of its own needs no
+// keys(k). Where choices differ in a few values alone, it is one of a list of rows with a `name`:
+// kernels/fpm/pressure/pressure_scheme.hpp.
 #pragma once
 #include <string>
 #include <type_traits>
@@ -40,7 +41,8 @@ void visit_keys(Each&, Keys&, long) {}
 // Tells `keys` every key of the alternative that `choice` holds.
 template <class Choice, class Keys>
 void visit_keys(Choice& choice, Keys& keys) {
-  static_assert(!std::is_const_v<Choice>, "keys(k) of a constant choice cannot be called, and would be passed over");
+  static_assert(!std::is_const_v<Choice>,
+                "keys(k) of a constant choice cannot be called, and would be passed over");
   std::visit([&](auto& c) { visit_keys(c, keys, 0); }, choice);
 }
 

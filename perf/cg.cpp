@@ -1,7 +1,7 @@
-// perf_cg [particles]: the free-surface solver's parts from memory: triad, matrix product over stored pairs (SELL-W) and with
-// coefficients found anew, a whole CG
-// iteration with Jacobi and with the particle-mesh preconditioner; GB/s modelled, and as a share of the triad measured in the same
-// run. Then iterations and seconds of a solve to 1e-8 by celerity Courant number. Particles: a lattice moved by up to 0.2 dx.
+// perf_cg [particles]: the free-surface solver's parts from memory: triad, matrix product over stored pairs
+// (SELL-W) and with coefficients found anew, a whole CG iteration with Jacobi and with the particle-mesh
+// preconditioner; GB/s modelled, and as a share of the triad measured in the same run. Then iterations and
+// seconds of a solve to 1e-8 by celerity Courant number. Particles: a lattice moved by up to 0.2 dx.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -25,7 +25,8 @@ struct AllSlices {
   KOKKOS_FORCEINLINE_FUNCTION int operator()(int k) const { return k; }
 };
 
-// omega x_i + sum_j a_ij (x_i - x_j), a_ij = k A_ij / d_ij: the free surface's matrix (kernels/sisph/pairs/coefficients.hpp).
+// omega x_i + sum_j a_ij (x_i - x_j), a_ij = k A_ij / d_ij: the free surface's matrix
+// (kernels/sisph/pairs/coefficients.hpp).
 class System {
  public:
   explicit System(int wanted)
@@ -35,7 +36,8 @@ class System {
     order_.sort(fields_);
     x_ = {fields_.real("x"), fields_.real("y")};
     order_.measure_reach(fields_, fields_.real("h"), 2.0);
-    g_ = sisph::measure_geometry<2>(size(), kernel_, {order_.rows(), x_, fields_.real("h"), fields_.integer("held"), 1.0, 1.0});
+    g_ = sisph::measure_geometry<2>(
+        size(), kernel_, {order_.rows(), x_, fields_.real("h"), fields_.integer("held"), 1.0, 1.0});
     const auto vector = [this] { return Vector("perf.vector", static_cast<size_t>(size()) + lanes); };
     for (Vector* v : {&diagonal_, &inverse_, &depth_, &right_, &found_, &result_}) *v = vector();
     a_ = Vector("perf.a", g_.pairs.j.extent(0));
@@ -69,12 +71,15 @@ class System {
     set_mesh(stiffness_);
   }
 
-  // sum_j a_ij x_j with coefficients from places and depths; the closure's multipliers are zero, which takes as long as others.
+  // sum_j a_ij x_j with coefficients from places and depths; the closure's multipliers are zero, which takes
+  // as long as others.
   void multiply_anew() {
     using Found = sisph::RecomputedPairs<2, CubicSpline<2>, false>;
-    const Found found{std::get<CubicSpline<2>>(kernel_), places_, {depth_, depth_, depth_, {}, false}, stiffness_};
-    (void)sum_of_slices<1>("perf::product_anew", g_.pairs.slices(),
-                           linear::PairProduct<AllSlices, Found>{g_.pairs, {}, found, diagonal_, g_.free, right_, result_});
+    const Found found{
+        std::get<CubicSpline<2>>(kernel_), places_, {depth_, depth_, depth_, {}, false}, stiffness_};
+    (void)sum_of_slices<1>(
+        "perf::product_anew", g_.pairs.slices(),
+        linear::PairProduct<AllSlices, Found>{g_.pairs, {}, found, diagonal_, g_.free, right_, result_});
   }
 
   double multiply(const Vector& x, const Vector& y) {
@@ -87,21 +92,24 @@ class System {
     const auto a = [this](const Vector& x, const Vector& y) { return multiply(x, y); };
     const linear::CgOptions options{tolerance, most};
     if (!meshed) return cg_.solve(a, linear::Jacobi{inverse_}, right_, found_, options);
-    return cg_.solve(a, linear::JacobiPlus<linear::ParticleMesh<2>>{inverse_, mesh_}, right_, found_, options);
+    return cg_.solve(a, linear::JacobiPlus<linear::ParticleMesh<2>>{inverse_, mesh_}, right_, found_,
+                     options);
   }
   void correct() { (void)mesh_(right_, result_); }
   void set_mesh(double k) { mesh_.set(g_.omega, depth_, k); }
 
  private:
   void place() {
-    const auto x = fields_.real("x", "m", Carry::sort), y = fields_.real("y", "m", Carry::sort), h = fields_.real("h", "m", Carry::sort);
+    const auto x = fields_.real("x", "m", Carry::sort), y = fields_.real("y", "m", Carry::sort),
+               h = fields_.real("h", "m", Carry::sort);
     const auto id = fields_.integer("id", "1", Carry::sort), held = fields_.integer("held", "1", Carry::sort);
     unsigned long long state = 12345;
     const auto off = [&] {
       state = state * 6364136223846793005ull + 1442695040888963407ull;
       return 0.2 * (static_cast<double>(state >> 11) * 0x1p-52 - 1);
     };
-    for (int i = 0; i < size(); ++i) x(i) = i % side_ + off(), y(i) = i / side_ + off(), h(i) = smoothing, id(i) = i, held(i) = 0;
+    for (int i = 0; i < size(); ++i)
+      x(i) = i % side_ + off(), y(i) = i / side_ + off(), h(i) = smoothing, id(i) = i, held(i) = 0;
   }
 
   int side_;
@@ -119,7 +127,8 @@ class System {
 
 void print(const char* what, double seconds, double n, double bytes, double triad) {
   std::printf("%-28s %8.3f ms %8.2f ns/particle", what, 1e3 * seconds, 1e9 * seconds / n);
-  if (bytes > 0) std::printf(" %8.2f GB/s %6.1f %% of triad", 1e-9 * bytes / seconds, 100 * bytes / seconds / triad);
+  if (bytes > 0)
+    std::printf(" %8.2f GB/s %6.1f %% of triad", 1e-9 * bytes / seconds, 100 * bytes / seconds / triad);
   std::printf("\n");
 }
 
@@ -127,16 +136,21 @@ void measure(int wanted) {
   System s(wanted);
   const double n = s.size(), triad = measure_peaks().bytes;
   s.set_courant(20);
-  std::printf("%d particles, %.1f entries per row, %d threads; triad %.2f GB/s\n", s.size(), s.entries() / n, thread_count(), 1e-9 * triad);
+  std::printf("%d particles, %.1f entries per row, %d threads; triad %.2f GB/s\n", s.size(), s.entries() / n,
+              thread_count(), 1e-9 * triad);
   const double product_bytes = 12.0 * s.entries() + 40 * n;
   const double product = fastest(20, [&] { s.multiply(); });
   print("product", product, n, product_bytes, triad);
-  const double anew_bytes = 4.0 * s.entries() + (40 + 56) * n;  // of the neighbours' seven values, which stay in the cache, once each
+  const double anew_bytes =
+      4.0 * s.entries() +
+      (40 + 56) * n;  // of the neighbours' seven values, which stay in the cache, once each
   print("product, coefficients anew", fastest(5, [&] { s.multiply_anew(); }), n, anew_bytes, triad);
   constexpr int iterations = 10;
   const double plain = fastest(3, [&] { (void)s.solve(false, 1e-300, iterations); }) / iterations;
-  print("CG iteration, Jacobi", plain, n, product_bytes + (24 + 72) * n, triad);  // p, z; x, r, z written, p, q, D read
-  print("CG iteration, particle mesh", fastest(3, [&] { (void)s.solve(true, 1e-300, iterations); }) / iterations, n, 0, triad);
+  print("CG iteration, Jacobi", plain, n, product_bytes + (24 + 72) * n,
+        triad);  // p, z; x, r, z written, p, q, D read
+  print("CG iteration, particle mesh",
+        fastest(3, [&] { (void)s.solve(true, 1e-300, iterations); }) / iterations, n, 0, triad);
   print("particle-mesh correction", fastest(5, [&] { s.correct(); }), n, 0, triad);
   print("particle-mesh set-up", fastest(5, [&] { s.set_mesh(1.0); }), n, 0, triad);
   for (const double courant : {5.0, 20.0, 100.0}) {
@@ -144,8 +158,8 @@ void measure(int wanted) {
     CgReport jacobi, meshed;
     const double seconds = fastest(1, [&] { jacobi = s.solve(false, 1e-8, 3000); });
     const double alone = fastest(1, [&] { meshed = s.solve(true, 1e-8, 3000); });
-    std::printf("Courant %3.0f: Jacobi %3d iterations %.3f s, with the mesh %2d iterations %.3f s\n", courant, jacobi.iterations, seconds,
-                meshed.iterations, alone);
+    std::printf("Courant %3.0f: Jacobi %3d iterations %.3f s, with the mesh %2d iterations %.3f s\n", courant,
+                jacobi.iterations, seconds, meshed.iterations, alone);
   }
 }
 

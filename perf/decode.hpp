@@ -1,15 +1,16 @@
-// How many double- or single-precision operations an x86-64 vector instruction does: additions, multiplications, minima, maxima,
-// divisions, roots and estimates count one in each lane, fused multiply-adds two; comparisons, moves and bit operations none.
-// Encodings: Intel SDM volume 2, sections 2.3 (VEX) and 2.7 (EVEX).
+// How many double- or single-precision operations an x86-64 vector instruction does: additions,
+// multiplications, minima, maxima, divisions, roots and estimates count one in each lane, fused multiply-adds
+// two; comparisons, moves and bit operations none. Encodings: Intel SDM volume 2, sections 2.3 (VEX) and 2.7
+// (EVEX).
 #pragma once
 #include <cstdint>
 
 namespace freshet::perf {
 
 struct Encoding {
-  bool vector = false;    // VEX or EVEX
+  bool vector = false;  // VEX or EVEX
   int map = 0, pp = 0, opcode = 0;
-  bool wide = false;      // W
+  bool wide = false;  // W
   int bits = 128;
 };
 
@@ -24,7 +25,8 @@ inline int flops_of(const std::uint8_t* bytes) {
   const Encoding e = encoding_of(bytes);
   if (!e.vector) return 0;
   if (e.map == 1) {
-    const bool arithmetic = e.opcode == 0x51 || e.opcode == 0x58 || e.opcode == 0x59 || (e.opcode >= 0x5c && e.opcode <= 0x5f);
+    const bool arithmetic =
+        e.opcode == 0x51 || e.opcode == 0x58 || e.opcode == 0x59 || (e.opcode >= 0x5c && e.opcode <= 0x5f);
     if (!arithmetic) return 0;
     return e.pp >= 2 ? 1 : e.bits / (e.pp == 1 ? 64 : 32);  // pp: 0 floats, 1 doubles, 2 and 3 one of them
   }

@@ -1,5 +1,5 @@
-// perf_dispatch [PARTICLES]: what choices cost that a scene does not take, and what dry land costs. One flat, frictionless
-// scene without walls is timed again and again, in turns with
+// perf_dispatch [PARTICLES]: what choices cost that a scene does not take, and what dry land costs. One flat,
+// frictionless scene without walls is timed again and again, in turns with
 //   again              itself: the noise of this machine
 //   recipe             the same kernels called one after another, without the solver that could do more
 //   dry                the same water in a domain 100 times as large
@@ -8,9 +8,9 @@
 //   canal, few sides   as much water in a long box with walls of 100 sides
 //   canal, many sides  the same walls drawn in pieces of a spacing each, 10,000 of them for 40,000 particles
 //   each feature       named: what it adds
-// Prints ns per particle-step, in all and by kind of pass, the least of the turns, and exits with 1 where one of the first three
-// is slower than the scene itself, ponds far apart than near ones, or many sides than few, by more than 5 % or three times the
-// noise.
+// Prints ns per particle-step, in all and by kind of pass, the least of the turns, and exits with 1 where one
+// of the first three is slower than the scene itself, ponds far apart than near ones, or many sides than few,
+// by more than 5 % or three times the noise.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -34,11 +34,12 @@ using namespace freshet;
 namespace {
 
 constexpr int turns = 9, steps = 10;
-constexpr double slow = 0.05;    // x the stable time step: the water hardly spreads, whose thin edges would cost by their length
+constexpr double slow =
+    0.05;  // x the stable time step: the water hardly spreads, whose thin edges would cost by their length
 constexpr double margin = 0.05;  // of lists, as the solver's
 
-// Shallow water at rest on a square of cells of 1 m, in a domain of `wider` times its width; `split`: half of the columns
-// stand in the far corner.
+// Shallow water at rest on a square of cells of 1 m, in a domain of `wider` times its width; `split`: half of
+// the columns stand in the far corner.
 Scene pond(int cells, double wider, bool split = false) {
   Scene scene;
   scene.name = "pond";
@@ -47,26 +48,31 @@ Scene pond(int cells, double wider, bool split = false) {
   scene.sph.h_floor = std::pow(1.6, -0.5);
   scene.end_time = 1e9;
   const double half = 0.5 * cells, shift = (wider - 1) * cells, full = cells;
-  const auto near = [=](double x, double y) { return x > 0 && x < (split ? half : full) && y > 0 && y < full; };
+  const auto near = [=](double x, double y) {
+    return x > 0 && x < (split ? half : full) && y > 0 && y < full;
+  };
   scene.water.depth = [=](double x, double y) {
-    const bool wet = near(x, y) || (split && x > shift + half && x < shift + full && y > shift && y < shift + full);
+    const bool wet =
+        near(x, y) || (split && x > shift + half && x < shift + full && y > shift && y < shift + full);
     return wet ? 1 + 0.05 * std::sin(0.2 * x) * std::cos(0.3 * y) : 0.0;
   };
   return scene;
 }
 
-// A closed canal, 8 cells of 1 m wide. Its walls are drawn in pieces of a cell each, or in 48 along and 2 across: the points behind
-// them are the same.
+// A closed canal, 8 cells of 1 m wide. Its walls are drawn in pieces of a cell each, or in 48 along and 2
+// across: the points behind them are the same.
 Scene canal(int particles, bool many_sides) {
   constexpr int width = 8, few = 48;
-  const int length = few * std::max(1, static_cast<int>(std::lround(static_cast<double>(particles) / (width * few))));
+  const int length =
+      few * std::max(1, static_cast<int>(std::lround(static_cast<double>(particles) / (width * few))));
   Scene scene = pond(1, 1);
   scene.domain = {2, {0, 0}, {1.0 * length, 1.0 * width}};
   scene.water.depth = [](double x, double y) { return 1 + 0.05 * std::sin(0.2 * x) * std::cos(0.3 * y); };
   std::vector<Point> line{{0, 0}};
   const auto draw = [&line](double x, double y, int pieces) {
     const Point from = line.back();
-    for (int k = 1; k <= pieces; ++k) line.push_back({from[0] + (x - from[0]) * k / pieces, from[1] + (y - from[1]) * k / pieces});
+    for (int k = 1; k <= pieces; ++k)
+      line.push_back({from[0] + (x - from[0]) * k / pieces, from[1] + (y - from[1]) * k / pieces});
   };
   const int along = many_sides ? length : few, across = many_sides ? width : 2;
   draw(length, 0, along), draw(length, width, across), draw(0, width, along), draw(0, 0, across);
@@ -135,7 +141,8 @@ struct Variant {
 Variant solver(const std::string& name, const Scene& scene, int against = -1) {
   const auto make = [scene] {
     const std::shared_ptr<Method> method = make_method(scene);
-    return Stepped{[method] { method->step(0, slow * method->stable_dt()); }, [method] { return method->fields().size(); }};
+    return Stepped{[method] { method->step(0, slow * method->stable_dt()); },
+                   [method] { return method->fields().size(); }};
   };
   return {name, make, against};
 }
@@ -144,8 +151,9 @@ Variant solver(const std::string& name, const Scene& scene, int against = -1) {
 class Recipe {
  public:
   explicit Recipe(const Scene& scene)
-      : method_(make_method(scene)), fields_(method_->fields()), order_(2, scene.water.spacing, sorted_box(scene)), sph_(scene.sph),
-        gravity_(scene.gravity), kernel_(make_kernel<2>(scene.sph.kernel, scene.sph.eta, false)), dt_(slow * method_->stable_dt()) {}
+      : method_(make_method(scene)), fields_(method_->fields()),
+        order_(2, scene.water.spacing, sorted_box(scene)), sph_(scene.sph), gravity_(scene.gravity),
+        kernel_(make_kernel<2>(scene.sph.kernel, scene.sph.eta, false)), dt_(slow * method_->stable_dt()) {}
 
   void step() {
     const LengthBounds bounds{sph_.h_floor, sph_.h_cap};
@@ -155,9 +163,11 @@ class Recipe {
     const swe::Particles<2> p = bind();
     order_.measure_reach(fields_, p.h, 2 * (1 + margin));
     list_.build<2>(clusters_, {p.x, p.h, order_.rows(), p.x, p.h, 2, margin});
-    swe::solve_density<2>(kernel_, clusters_, list_.view(), {}, p, {}, {gravity_, sph_.newton_tolerance, margin, bounds, true, 1, 0.5});
+    swe::solve_density<2>(kernel_, clusters_, list_.view(), {}, p, {},
+                          {gravity_, sph_.newton_tolerance, margin, bounds, true, 1, 0.5});
     swe::internal_force<2>(kernel_, clusters_, list_.view(), {}, p, swe::LaxFriedrichsMuscl{1});
-    dt_ = slow * 0.4 * swe::accelerate_and_kick<2>(p, {gravity_, bounds, {}, {}, {}, {}}, fields_.size(), 0.5 * dt_);
+    dt_ = slow * 0.4 *
+          swe::accelerate_and_kick<2>(p, {gravity_, bounds, {}, {}, {}, {}}, fields_.size(), 0.5 * dt_);
   }
   int particles() const { return fields_.size(); }
 
@@ -166,9 +176,27 @@ class Recipe {
 
   swe::Particles<2> bind() const {
     const auto f = [&](const char* name) { return fields_.real(name); };
-    return {{f("x"), f("y")}, {f("u"), f("v")}, {f("u_pred"), f("v_pred")}, {f("ax"), f("ay")}, f("mass"), f("h0"), f("kh"),
-            f("depth"), f("depth_rate"), f("depth_growth"), f("h"), f("inv_h"), f("pressure"), f("celerity"), f("weight"),
-            {f("strain_xx"), f("strain_xy"), f("strain_yy")}, {}, {f("tx"), f("ty")}, f("signal"), fields_.integer("id"), {}};
+    return {{f("x"), f("y")},
+            {f("u"), f("v")},
+            {f("u_pred"), f("v_pred")},
+            {f("ax"), f("ay")},
+            f("mass"),
+            f("h0"),
+            f("kh"),
+            f("depth"),
+            f("depth_rate"),
+            f("depth_growth"),
+            f("h"),
+            f("inv_h"),
+            f("pressure"),
+            f("celerity"),
+            f("weight"),
+            {f("strain_xx"), f("strain_xy"), f("strain_yy")},
+            {},
+            {f("tx"), f("ty")},
+            f("signal"),
+            fields_.integer("id"),
+            {}};
   }
 
   std::unique_ptr<Method> method_;  // holds the fields, as the scene starts
@@ -203,7 +231,9 @@ std::vector<Variant> features(int cells) {
   add("Lax-Friedrichs, plain", [](Scene& s) { s.sph.stabilisation = swe::LaxFriedrichs{}; });
   add("two-shock, MUSCL", [](Scene& s) { s.sph.stabilisation = swe::TwoShockMuscl{}; });
   add("fixed h", [](Scene& s) { s.sph.h_floor = s.sph.h_cap = 1; });
-  add("bed", [](Scene& s) { s.bed.elevation = [](double x, double y) { return 0.05 * std::sin(0.1 * x + 0.1 * y); }; });
+  add("bed", [](Scene& s) {
+    s.bed.elevation = [](double x, double y) { return 0.05 * std::sin(0.1 * x + 0.1 * y); };
+  });
   add("friction", [](Scene& s) { s.manning = 0.02; });
   add("walls, mirror", [w](Scene& s) { s.walls = {Wall{{{0, 0}, {w, 0}, {w, w}, {0, w}, {0, 0}}}}; });
   add("walls, rows", [w](Scene& s) {
@@ -218,31 +248,40 @@ std::vector<Variant> features(int cells) {
 }
 
 int report(const std::vector<Variant>& all) {
-  const double flat = least(all[0].times), noise = std::abs(least(all[1].times) / flat - 1), allowed = std::max(0.05, 3 * noise);
+  const double flat = least(all[0].times), noise = std::abs(least(all[1].times) / flat - 1),
+               allowed = std::max(0.05, 3 * noise);
   int slower = 0;
-  std::printf("%-24s %9s %8s %8s %8s %8s %8s %8s %8s\n", "", "particles", "ns", "of flat", "order", "list", "density", "force", "rest");
+  std::printf("%-24s %9s %8s %8s %8s %8s %8s %8s %8s\n", "", "particles", "ns", "of flat", "order", "list",
+              "density", "force", "rest");
   for (const Variant& v : all) {
     const double ratio = least(v.times) / flat;
-    const bool too_slow = v.against >= 0 && least(v.times) > (1 + allowed) * least(all[static_cast<std::size_t>(v.against)].times);
+    const bool too_slow =
+        v.against >= 0 &&
+        least(v.times) > (1 + allowed) * least(all[static_cast<std::size_t>(v.against)].times);
     slower += too_slow;
     std::printf("%-24s %9d %8.1f %8.3f", v.name.c_str(), v.particles, least(v.times), ratio);
     for (const auto& pass : v.passes) std::printf(" %8.1f", least(pass));
     std::printf("%s\n", too_slow ? "  too slow" : "");
   }
-  std::printf("%s, %d threads; ns per particle-step, least of %d turns of %d steps; judged: rows 2 to 4 against the first, 6 against 5, 8 against 7, "
-              "allowed 1 + %.3f\n",
-              backend_name(), thread_count(), turns, steps, allowed);
+  std::printf(
+      "%s, %d threads; ns per particle-step, least of %d turns of %d steps; judged: rows 2 to 4 against the "
+      "first, 6 against 5, 8 against 7, "
+      "allowed 1 + %.3f\n",
+      backend_name(), thread_count(), turns, steps, allowed);
   return slower > 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int wanted = argc > 1 ? std::atoi(argv[1]) : 40000, cells = 2 * static_cast<int>(std::sqrt(std::max(wanted, 400)) / 2);
+  const int wanted = argc > 1 ? std::atoi(argv[1]) : 40000,
+            cells = 2 * static_cast<int>(std::sqrt(std::max(wanted, 400)) / 2);
   const char* threads = std::getenv("OMP_NUM_THREADS");
   const Runtime kokkos(threads ? std::atoi(threads) : 1);
   watch_launches();
-  std::vector<Variant> all{solver("flat", pond(cells, 1)), solver("again", pond(cells, 1), 0), recipe(pond(cells, 1)),
+  std::vector<Variant> all{solver("flat", pond(cells, 1)),
+                           solver("again", pond(cells, 1), 0),
+                           recipe(pond(cells, 1)),
                            solver("dry, 100 times the area", pond(cells, 10), 0),
                            solver("two ponds", pond(cells, 1.2, true)),
                            solver("ponds, 100 times the box", pond(cells, 10, true), 4),

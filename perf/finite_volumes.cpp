@@ -1,7 +1,8 @@
-// perf_finite_volumes [CELLS ...]: the circular dam break of cases/dam_break_radial.toml by finite volumes on a Cartesian grid, one
-// thread: what a mesh code of equal cost reaches. MUSCL with the monotonised central limiter in depth and velocity, HLL flux,
-// Heun in time, Courant number 0.45. For each number of cells along a side prints cells, steps, seconds of processor time of the time loop (one thread), and the
-// errors of the depth within 640 m of the centre at 50 s against the radial reference of the same case: relative L1 and L2.
+// perf_finite_volumes [CELLS ...]: the circular dam break of cases/dam_break_radial.toml by finite volumes on
+// a Cartesian grid, one thread: what a mesh code of equal cost reaches. MUSCL with the monotonised central
+// limiter in depth and velocity, HLL flux, Heun in time, Courant number 0.45. For each number of cells along
+// a side prints cells, steps, seconds of processor time of the time loop (one thread), and the errors of the
+// depth within 640 m of the centre at 50 s against the radial reference of the same case: relative L1 and L2.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -17,9 +18,13 @@ constexpr double gravity = 9.81, half_box = 643.5, end_time = 50, courant = 0.45
 constexpr freshet::RadialDam dam{10, 5, 100};
 
 template <class T>
-T least(T a, T b) { return b < a ? b : a; }
+T least(T a, T b) {
+  return b < a ? b : a;
+}
 template <class T>
-T most(T a, T b) { return a < b ? b : a; }
+T most(T a, T b) {
+  return a < b ? b : a;
+}
 
 // Depth [m] and discharges per width [m2/s], with two cells more on each side.
 struct Water {
@@ -30,7 +35,8 @@ struct Water {
 // Half of the limited difference across a cell, monotonised central.
 double half_slope(double a, double b, double c) {
   const double left = 2 * (b - a), right = 2 * (c - b), middle = 0.5 * (c - a);
-  const double up = most(0.0, least(middle, least(left, right))), down = least(0.0, most(middle, most(left, right)));
+  const double up = most(0.0, least(middle, least(left, right))),
+               down = least(0.0, most(middle, most(left, right)));
   return 0.5 * (up + down);
 }
 
@@ -40,15 +46,18 @@ struct Flux {
 
 Flux hll(double dl, double ul, double vl, double dr, double ur, double vr) {
   const double cl = std::sqrt(gravity * dl), cr = std::sqrt(gravity * dr);
-  const double sl = least(0.0, least(ul - cl, ur - cr)), sr = most(0.0, most(ul + cl, ur + cr)), per = 1 / (sr - sl);
-  const double fl = dl * ul, fr = dr * ur, gl = fl * ul + 0.5 * gravity * dl * dl, gr = fr * ur + 0.5 * gravity * dr * dr;
+  const double sl = least(0.0, least(ul - cl, ur - cr)), sr = most(0.0, most(ul + cl, ur + cr)),
+               per = 1 / (sr - sl);
+  const double fl = dl * ul, fr = dr * ur, gl = fl * ul + 0.5 * gravity * dl * dl,
+               gr = fr * ur + 0.5 * gravity * dr * dr;
   const double mass = (sr * fl - sl * fr + sl * sr * (dr - dl)) * per;
   return {mass, (sr * gl - sl * gr + sl * sr * (fr - fl)) * per, mass > 0 ? mass * vl : mass * vr};
 }
 
 class Grid {
  public:
-  explicit Grid(int n) : n_(n), wide_(n + 4), dx_(2 * half_box / n), now_(size()), next_(size()), rate_(size()) {
+  explicit Grid(int n)
+      : n_(n), wide_(n + 4), dx_(2 * half_box / n), now_(size()), next_(size()), rate_(size()) {
     for (int j = 0; j < wide_; ++j)
       for (int i = 0; i < wide_; ++i) {
         const double x = centre(i), y = centre(j);
@@ -85,7 +94,9 @@ class Grid {
 
  private:
   std::size_t size() const { return static_cast<std::size_t>(wide_) * static_cast<std::size_t>(wide_); }
-  std::size_t at(int i, int j) const { return static_cast<std::size_t>(j) * static_cast<std::size_t>(wide_) + static_cast<std::size_t>(i); }
+  std::size_t at(int i, int j) const {
+    return static_cast<std::size_t>(j) * static_cast<std::size_t>(wide_) + static_cast<std::size_t>(i);
+  }
   double centre(int i) const { return (i - 1.5) * dx_ - half_box; }
 
   double stable_dt() const {
@@ -97,23 +108,29 @@ class Grid {
     return courant * dx_ / fastest;
   }
 
-  // The fluxes through the faces along a direction (step: from a cell to the next), added to the rates of both sides. The outer
-  // two cells keep their state: nothing reaches them. n, t: normal and tangential velocity.
-  void add_fluxes(const double* d, const double* n, const double* t, std::size_t step, double* rate_n, double* rate_t) {
+  // The fluxes through the faces along a direction (step: from a cell to the next), added to the rates of
+  // both sides. The outer two cells keep their state: nothing reaches them. n, t: normal and tangential
+  // velocity.
+  void add_fluxes(const double* d, const double* n, const double* t, std::size_t step, double* rate_n,
+                  double* rate_t) {
     const std::size_t faces = static_cast<std::size_t>(step == 1 ? n_ + 1 : n_);
     const double per = 1 / dx_;
-    double *__restrict fd = flux_d_.data(), *__restrict fn = flux_n_.data(), *__restrict ft = flux_t_.data();
+    double* __restrict fd = flux_d_.data(), * __restrict fn = flux_n_.data(), * __restrict ft = flux_t_.data();
     double* rate_d = rate_.d.data();
     for (int j = 2; j < n_ + 2; ++j) {
       const std::size_t first = at(2, j);
       for (std::size_t i = 0; i < faces; ++i) {
         const std::size_t r = first + i, l = r - step, ll = l - step, rr = r + step;
-        const Flux f = hll(d[l] + half_slope(d[ll], d[l], d[r]), n[l] + half_slope(n[ll], n[l], n[r]), t[l] + half_slope(t[ll], t[l], t[r]),
-                           d[r] - half_slope(d[l], d[r], d[rr]), n[r] - half_slope(n[l], n[r], n[rr]), t[r] - half_slope(t[l], t[r], t[rr]));
+        const Flux f = hll(d[l] + half_slope(d[ll], d[l], d[r]), n[l] + half_slope(n[ll], n[l], n[r]),
+                           t[l] + half_slope(t[ll], t[l], t[r]), d[r] - half_slope(d[l], d[r], d[rr]),
+                           n[r] - half_slope(n[l], n[r], n[rr]), t[r] - half_slope(t[l], t[r], t[rr]));
         fd[i] = per * f.d, fn[i] = per * f.n, ft[i] = per * f.t;
       }
-      for (std::size_t i = 0; i < faces; ++i) rate_d[first + i - step] -= fd[i], rate_n[first + i - step] -= fn[i], rate_t[first + i - step] -= ft[i];
-      for (std::size_t i = 0; i < faces; ++i) rate_d[first + i] += fd[i], rate_n[first + i] += fn[i], rate_t[first + i] += ft[i];
+      for (std::size_t i = 0; i < faces; ++i)
+        rate_d[first + i - step] -= fd[i], rate_n[first + i - step] -= fn[i],
+            rate_t[first + i - step] -= ft[i];
+      for (std::size_t i = 0; i < faces; ++i)
+        rate_d[first + i] += fd[i], rate_n[first + i] += fn[i], rate_t[first + i] += ft[i];
     }
   }
 
@@ -123,7 +140,8 @@ class Grid {
     for (std::vector<double>* v : {&u_, &v_}) v->resize(size());
     for (std::size_t k = 0; k < size(); ++k) u_[k] = w.p[k] / w.d[k], v_[k] = w.q[k] / w.d[k];
     add_fluxes(w.d.data(), u_.data(), v_.data(), 1, rate_.p.data(), rate_.q.data());
-    add_fluxes(w.d.data(), v_.data(), u_.data(), static_cast<std::size_t>(wide_), rate_.q.data(), rate_.p.data());
+    add_fluxes(w.d.data(), v_.data(), u_.data(), static_cast<std::size_t>(wide_), rate_.q.data(),
+               rate_.p.data());
   }
 
   void add(const Water& from, double dt, Water& to) const {
@@ -140,7 +158,8 @@ class Grid {
     for (int j = 0; j < wide_; ++j)
       for (int i = 0; i < wide_; ++i) {
         if (j >= 2 && j < n_ + 1 && i == 2) i = n_ + 2;
-        to.d[at(i, j)] = from.d[at(i, j)], to.p[at(i, j)] = from.p[at(i, j)], to.q[at(i, j)] = from.q[at(i, j)];
+        to.d[at(i, j)] = from.d[at(i, j)], to.p[at(i, j)] = from.p[at(i, j)],
+                   to.q[at(i, j)] = from.q[at(i, j)];
       }
   }
 

@@ -1,5 +1,6 @@
-// perf_fpm_step SCENE STEPS [key=value ...]: runs an incompressible scene for some steps after two that warm up and prints, per step and
-// point, the time of every launch by its label, the split in points, stencils (with lists and prediction) and pressure, and iterations.
+// perf_fpm_step SCENE STEPS [key=value ...]: runs an incompressible scene for some steps after two that warm
+// up and prints, per step and point, the time of every launch by its label, the split in points, stencils
+// (with lists and prediction) and pressure, and iterations.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -61,9 +62,11 @@ void run(const std::string& file, int steps, const std::vector<std::string>& ove
     points += solver.fields().size();
   }
   const double total = since(start);
-  std::printf("%d points, %d threads: %.4g s per step, %.3f us per point and step, %.1f iterations\n", solver.fields().size(), thread_count(),
-              total / steps, 1e6 * total / points, static_cast<double>(iterations) / steps);
-  for (const auto& [name, seconds] : spent) std::printf("%8.4f us  %5.1f %%  %s\n", 1e6 * seconds / points, 100 * seconds / total, name.c_str());
+  std::printf("%d points, %d threads: %.4g s per step, %.3f us per point and step, %.1f iterations\n",
+              solver.fields().size(), thread_count(), total / steps, 1e6 * total / points,
+              static_cast<double>(iterations) / steps);
+  for (const auto& [name, seconds] : spent)
+    std::printf("%8.4f us  %5.1f %%  %s\n", 1e6 * seconds / points, 100 * seconds / total, name.c_str());
 }
 
 }  // namespace

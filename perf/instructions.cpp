@@ -1,5 +1,6 @@
-// perf_instructions: every pass on a few particles, instruction by instruction (ptrace), and the operations counted in them
-// beside the modelled ones. Needs no performance counters, which virtual machines seldom have. x86-64 Linux; takes a minute.
+// perf_instructions: every pass on a few particles, instruction by instruction (ptrace), and the operations
+// counted in them beside the modelled ones. Needs no performance counters, which virtual machines seldom
+// have. x86-64 Linux; takes a minute.
 #include <cstdio>
 
 #if defined(__linux__) && defined(__x86_64__)
@@ -35,7 +36,8 @@ struct Model {
 
 int flops_at(pid_t child, unsigned long long address) {
   std::uint8_t code[16] = {};
-  iovec here{code, sizeof code}, there{reinterpret_cast<void*>(address), sizeof code};  // NOLINT: an address of the child
+  iovec here{code, sizeof code},
+      there{reinterpret_cast<void*>(address), sizeof code};  // NOLINT: an address of the child
   return process_vm_readv(child, &here, 1, &there, 1, 0) > 0 ? flops_of(code) : 0;
 }
 
@@ -79,8 +81,9 @@ std::vector<Pass> all_passes(const std::shared_ptr<Water>& water, int with_bed, 
 }
 
 void report(const Count& count, const Model& model) {
-  std::printf("%-22s %13.0f %12.1f %12.1f %8.2f %12.2f %10.2f\n", model.name, count.instructions / model.particles,
-              count.flops / model.particles, model.flops / model.particles, model.flops / std::max(count.flops, 1.0),
+  std::printf("%-22s %13.0f %12.1f %12.1f %8.2f %12.2f %10.2f\n", model.name,
+              count.instructions / model.particles, count.flops / model.particles,
+              model.flops / model.particles, model.flops / std::max(count.flops, 1.0),
               count.flops / model.listed, model.flops / model.listed);
 }
 
@@ -116,8 +119,8 @@ bool count_pass(int kind, std::size_t index) {
 }  // namespace
 
 int main() {
-  std::printf("%-22s %13s %12s %12s %8s %12s %10s\n", "pass, per particle", "instructions", "operations", "modelled", "of that",
-              "listed pair", "modelled");
+  std::printf("%-22s %13s %12s %12s %8s %12s %10s\n", "pass, per particle", "instructions", "operations",
+              "modelled", "of that", "listed pair", "modelled");
   for (int kind = 0; kind < 3; ++kind)
     for (std::size_t index = 0; count_pass(kind, index); ++index) std::fflush(stdout);
   return 0;

@@ -1,4 +1,5 @@
-// The passes that are benchmarked: what each runs, what has to be done before each run of it (not timed), and its modelled work.
+// The passes that are benchmarked: what each runs, what has to be done before each run of it (not timed), and
+// its modelled work.
 #pragma once
 #include <functional>
 #include <memory>
@@ -27,20 +28,23 @@ struct NamedStabilisation {
 };
 
 inline std::vector<NamedStabilisation> stabilisations() {
-  return {{"none", swe::NoStabilisation{}},        {"viscosity", swe::ArtificialViscosity{0.1, 0}},
-          {"lf", swe::LaxFriedrichs{1}},           {"lf_muscl", swe::LaxFriedrichsMuscl{1}},
-          {"two_shock", swe::TwoShock{9.81}},      {"two_shock_muscl", swe::TwoShockMuscl{9.81}}};
+  return {{"none", swe::NoStabilisation{}},   {"viscosity", swe::ArtificialViscosity{0.1, 0}},
+          {"lf", swe::LaxFriedrichs{1}},      {"lf_muscl", swe::LaxFriedrichsMuscl{1}},
+          {"two_shock", swe::TwoShock{9.81}}, {"two_shock_muscl", swe::TwoShockMuscl{9.81}}};
 }
 
-// All passes over the given water; beds, friction and walls are added to copies of their own kind by the caller.
+// All passes over the given water; beds, friction and walls are added to copies of their own kind by the
+// caller.
 class PassList {
  public:
   explicit PassList(std::shared_ptr<Water> water) : w_(std::move(water)) {}
 
   std::vector<Pass> plain() const {
     std::vector<Pass> passes{sort(), list(), density("density")};
-    for (const NamedStabilisation& s : stabilisations()) passes.push_back(force(std::string("force/") + s.name, s.value));
-    passes.push_back({"kick_and_drift", none(), [w = w_] { w->kick_and_drift(0); }, o_n(swe::kick_and_drift_cost)});
+    for (const NamedStabilisation& s : stabilisations())
+      passes.push_back(force(std::string("force/") + s.name, s.value));
+    passes.push_back(
+        {"kick_and_drift", none(), [w = w_] { w->kick_and_drift(0); }, o_n(swe::kick_and_drift_cost)});
     passes.push_back({"accelerate", none(), [w = w_] { w->accelerate(0); }, o_n(swe::accelerate_cost)});
     return passes;
   }
@@ -58,47 +62,56 @@ class PassList {
   }
 
   std::vector<Pass> with_matrix() const {
-    return {{"matvec", none(), [w = w_] { w->multiply(); }, [w = w_] {
-               Work work = work_of(matvec_cost, w->size());
-               work.flops += matvec_cost.pair_flops * w->entries();
-               work.bytes += matvec_bytes_per_entry * w->entries();
-               work.listed = work.pairs = w->entries();
-               return work;
+    return {{"matvec", none(), [w = w_] { w->multiply(); },
+             [w = w_] {
+      Work work = work_of(matvec_cost, w->size());
+      work.flops += matvec_cost.pair_flops * w->entries();
+      work.bytes += matvec_bytes_per_entry * w->entries();
+      work.listed = work.pairs = w->entries();
+      return work;
              }}};
   }
 
   // The work is that without walls: what they cost shows in the time.
   std::vector<Pass> with_walls(const std::string& kind) const {
-    return {density("density_" + kind), force("force_" + kind, swe::LaxFriedrichsMuscl{1}),
+    return {density("density_" + kind),
+            force("force_" + kind, swe::LaxFriedrichsMuscl{1}),
             {"find_" + kind, none(), [w = w_] { w->find_walls(); }, o_n({})},
             {"reflect_" + kind, none(), [w = w_] { w->reflect(); }, o_n({})}};
   }
 
  private:
-  static std::function<void()> none() { return [] {}; }
+  static std::function<void()> none() {
+    return [] {};
+  }
   std::function<Work()> o_n(const Cost& cost) const {
     return [w = w_, cost] { return work_of(cost, w->size()); };
   }
   std::function<Work()> walk(const Cost& cost) const {
-    return [w = w_, cost, pairs = w_->pairs(), listed = w_->listed()] { return work_of(cost, w->size(), pairs, listed, lanes); };
+    return [w = w_, cost, pairs = w_->pairs(), listed = w_->listed()] {
+      return work_of(cost, w->size(), pairs, listed, lanes);
+    };
   }
 
   Pass sort() const {
     return {"sort", [w = w_] { w->stir(); }, [w = w_] { w->sort(); },
             [w = w_] {
-              const double n = w->size();
-              return add(add(add(work_of(extent_cost, n), work_of(count_cost, n)), work_of(place_cost, n)), work_of(permute_cost, n), 10);
+      const double n = w->size();
+      return add(add(add(work_of(extent_cost, n), work_of(count_cost, n)), work_of(place_cost, n)),
+                 work_of(permute_cost, n), 10);
             }};
   }
-  Pass list() const { return {"list", none(), [w = w_] { w->list(); }, walk(list_cost)}; }
+  Pass list() const {
+    return {"list", none(), [w = w_] { w->list(); }, walk(list_cost)};
+  }
 
   Pass density(const std::string& name) const {
     const auto mean = std::make_shared<double>(1);
     return {name, [w = w_] { w->disturb_density(); }, [w = w_, mean] { *mean = w->density().newton_mean; },
             [first = walk(swe::density_gradient_cost), again = walk(swe::density_again_cost), mean] {
-              Work work = first();
-              work.flops += (*mean - 1) * again().flops;
-              return work;
+      Work work = first();
+      work.flops += (*mean - 1) * again().flops;
+      return work;
             }};
   }
   Pass force(const std::string& name, const swe::AnyStabilisation& s) const {

@@ -1,6 +1,7 @@
-// perf_throughput [--threads N] [--largest N] [Google Benchmark's options]: every pass alone, for several numbers of particles and
-// arrangements. Columns: ns per particle (process time is not used: the passes are timed by the wall clock), millions of particles
-// and of pairs within the support per second, modelled GFLOP/s and GB/s, and their shares of the peaks measured before.
+// perf_throughput [--threads N] [--largest N] [Google Benchmark's options]: every pass alone, for several
+// numbers of particles and arrangements. Columns: ns per particle (process time is not used: the passes are
+// timed by the wall clock), millions of particles and of pairs within the support per second, modelled
+// GFLOP/s and GB/s, and their shares of the peaks measured before.
 #include <benchmark/benchmark.h>
 
 #include <chrono>
@@ -50,7 +51,8 @@ void time_pass(benchmark::State& state, const Pass& pass) {
   put_counters(state, pass.work(), least);
 }
 
-// Water is made when the first benchmark that needs it runs, and kept for the next alone: a million particles take 300 MB.
+// Water is made when the first benchmark that needs it runs, and kept for the next alone: a million particles
+// take 300 MB.
 class Pool {
  public:
   std::shared_ptr<Water> get(Arrangement arrangement, int n, const std::string& extra) {
@@ -91,9 +93,13 @@ void add_benchmarks(Pool& pool, Arrangement arrangement, int n, const std::strin
   }();
   for (std::size_t k = 0; k < names.size(); ++k) {
     const std::string name = names[k] + "/" + name_of(arrangement) + "/" + std::to_string(n);
-    benchmark::RegisterBenchmark(name.c_str(), [&pool, arrangement, n, extra, k](benchmark::State& state) {
+    benchmark::RegisterBenchmark(
+        name.c_str(),
+        [&pool, arrangement, n, extra, k](benchmark::State& state) {
       time_pass(state, passes_of(pool.get(arrangement, n, extra), extra)[k]);
-    })->UseManualTime()->Unit(benchmark::kMicrosecond);
+        })
+        ->UseManualTime()
+        ->Unit(benchmark::kMicrosecond);
   }
 }
 
@@ -112,7 +118,8 @@ int take_option(int& argc, char** argv, const char* option, int otherwise) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int threads = take_option(argc, argv, "--threads", 1), largest = take_option(argc, argv, "--largest", 1000000);
+  const int threads = take_option(argc, argv, "--threads", 1),
+            largest = take_option(argc, argv, "--largest", 1000000);
   const Runtime runtime(threads);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
@@ -122,8 +129,10 @@ int main(int argc, char** argv) {
   benchmark::AddCustomContext("triad_bytes_per_s", std::to_string(peaks.bytes));
   Pool pool;
   for (int n = 1000; n <= largest; n *= 10) {
-    for (const Arrangement a : {Arrangement::uniform, Arrangement::graded, Arrangement::clustered}) add_benchmarks(pool, a, n, "");
-    for (const char* extra : {"bed", "friction", "matrix", "mirror", "rows", "mvbp"}) add_benchmarks(pool, Arrangement::uniform, n, extra);
+    for (const Arrangement a : {Arrangement::uniform, Arrangement::graded, Arrangement::clustered})
+      add_benchmarks(pool, a, n, "");
+    for (const char* extra : {"bed", "friction", "matrix", "mirror", "rows", "mvbp"})
+      add_benchmarks(pool, Arrangement::uniform, n, extra);
   }
   benchmark::RunSpecifiedBenchmarks();
   return 0;

@@ -1,4 +1,5 @@
-// Water for benchmarks of single passes: particles of a chosen arrangement, sorted, listed and walled as a step does it.
+// Water for benchmarks of single passes: particles of a chosen arrangement, sorted, listed and walled as a
+// step does it.
 //   uniform    a lattice with every particle moved by up to 0.2 dx
 //   graded     dx and h grow by a factor of 5 across the domain, smoothly, along both axes
 //   clustered  half of the particles in clumps (ten times as dense, h alike), the others as in uniform
@@ -65,7 +66,8 @@ class Water {
   }
   double listed() const { return neighbours_.mean_length(clusters_) * clusters_.size() * lanes; }
 
-  // ---- The passes -------------------------------------------------------------------------------------------------------
+  // ---- The passes
+  // -------------------------------------------------------------------------------------------------------
   void sort() {
     order_.sort(fields_);
     clusters_.cut(order_.rows());
@@ -98,7 +100,8 @@ class Water {
   void multiply() {
     const PairView pairs = pairs_.view();
     const Field<double> a = coefficient_, x = vector_x_, y = vector_y_;
-    Kokkos::parallel_for("perf::matvec", Range(0, pairs.slices()), KOKKOS_LAMBDA(int s) {
+    Kokkos::parallel_for(
+        "perf::matvec", Range(0, pairs.slices()), KOKKOS_LAMBDA(int s) {
           const Lanes me = pairs(s);
           me.store(y, 20.0 * me.load(x) - pairs.weighted_sum(s, a, x));
         });
@@ -107,12 +110,14 @@ class Water {
   void find_walls() { walls_->find(clusters_, listing(), neighbours_.view()); }
   void reflect() { walls_->reflect(clusters_, bind().x, bind().v, bind().v_pred); }
 
-  // ---- What passes need -------------------------------------------------------------------------------------------------
-  // The guess that a prediction leaves: 0.2 % off, one side or the other.
+  // ---- What passes need
+  // ------------------------------------------------------------------------------------------------- The
+  // guess that a prediction leaves: 0.2 % off, one side or the other.
   void disturb_density() {
     const auto p = bind();
     const Field<double> rho = settled_rho_, h = settled_h_;
-    Kokkos::parallel_for("perf::disturb", Range(0, size()), KOKKOS_LAMBDA(int i) {
+    Kokkos::parallel_for(
+        "perf::disturb", Range(0, size()), KOKKOS_LAMBDA(int i) {
           p.rho(i) = rho(i) * (1 + 2e-3 * ((i * 2654435761u >> 16) % 201 * 0.01 - 1));
           p.h(i) = h(i);
         });
@@ -122,7 +127,8 @@ class Water {
     stirred_ = -stirred_;
     const auto p = bind();
     const double step = 0.02 * dx * stirred_;
-    Kokkos::parallel_for("perf::stir", Range(0, size()), KOKKOS_LAMBDA(int i) {
+    Kokkos::parallel_for(
+        "perf::stir", Range(0, size()), KOKKOS_LAMBDA(int i) {
           const unsigned id = static_cast<unsigned>(p.id(i));
           p.x.x(i) += step * ((id * 2654435761u >> 16) % 201 * 0.01 - 1);
           p.x.y(i) += step * ((id * 2246822519u >> 16) % 201 * 0.01 - 1);
@@ -130,8 +136,11 @@ class Water {
   }
   void add_bed() {
     const double size = side_ * dx, wave = 20 * dx;
-    const auto level = [=](double x, double y) { return 0.05 * wave * std::sin(x / wave) * std::cos(y / wave); };
-    bed_ = swe::BedTerm<D>{BedSpline<D>(level, {{0, 0}, {size, size}, dx, 0}), true, fields_.real("bed", "m", Carry::no)};
+    const auto level = [=](double x, double y) {
+      return 0.05 * wave * std::sin(x / wave) * std::cos(y / wave);
+    };
+    bed_ = swe::BedTerm<D>{BedSpline<D>(level, {{0, 0}, {size, size}, dx, 0}), true,
+                           fields_.real("bed", "m", Carry::no)};
   }
   void add_matrix() {
     const auto p = bind();
@@ -148,7 +157,8 @@ class Water {
   void add_walls(WallKind kind) {
     const double size = side_ * dx;
     walls_.emplace(std::vector<Polyline>{{{0, 0}, {size, 0}, {size, size}, {0, size}, {0, 0}}},
-                   WallOptions{kind, dx, 1.5 * 2 * eta * dx, true}, std::array<double, 2>{size / 2, size / 2}, 2.0);
+                   WallOptions{kind, dx, 1.5 * 2 * eta * dx, true}, std::array<double, 2>{size / 2, size / 2},
+                   2.0);
     find_walls();
   }
 
@@ -157,14 +167,17 @@ class Water {
 
   void make_fields() {
     fields_ = FieldSet(side_ * side_);
-    for (const char* name : {"x", "y", "u", "v", "mass", "h0", "kh", "depth", "h"}) fields_.real(name, "1", Carry::sort);
-    for (const char* name : {"u_pred", "v_pred", "ax", "ay", "tx", "ty", "depth_rate", "depth_growth", "inv_h", "pressure", "celerity",
-                             "weight", "signal", "strain_xx", "strain_xy", "strain_yy", "depth_slope_x", "depth_slope_y"})
+    for (const char* name : {"x", "y", "u", "v", "mass", "h0", "kh", "depth", "h"})
+      fields_.real(name, "1", Carry::sort);
+    for (const char* name : {"u_pred", "v_pred", "ax", "ay", "tx", "ty", "depth_rate", "depth_growth",
+                             "inv_h", "pressure", "celerity", "weight", "signal", "strain_xx", "strain_xy",
+                             "strain_yy", "depth_slope_x", "depth_slope_y"})
       fields_.real(name, "1", Carry::no);
     fields_.integer("id", "1", Carry::sort);
   }
 
-  // Where the node s of n lies, and the spacing there, both for spacings that grow from dx/5^(1/2) to dx 5^(1/2).
+  // Where the node s of n lies, and the spacing there, both for spacings that grow from dx/5^(1/2) to dx
+  // 5^(1/2).
   static std::array<double, 2> graded(double s, int n) {
     const double rate = std::log(5.0) / n, first = 1 / std::sqrt(5.0);
     return {dx * first * (std::exp(rate * s) - 1) / rate, dx * first * std::exp(rate * s)};
@@ -203,7 +216,9 @@ class Water {
   }
 
   WallView<D> walls() const { return walls_ ? walls_->view() : WallView<D>{}; }
-  swe::MotionOptions<D> motion() const { return {gravity, {0.3, 3}, bed_, friction_, drag_, {}, walls_.has_value()}; }
+  swe::MotionOptions<D> motion() const {
+    return {gravity, {0.3, 3}, bed_, friction_, drag_, {}, walls_.has_value()};
+  }
 
   swe::Particles<D> bind() const {
     const FieldList list = FieldList::binding(fields_);

@@ -1,4 +1,5 @@
-// Failures that a user can mend, with the exit code each ends the program with. Messages carry what, where, remedy.
+// Failures that a user can mend, with the exit code each ends the program with. Messages carry what, where,
+// remedy.
 #pragma once
 #include <stdexcept>
 #include <string>

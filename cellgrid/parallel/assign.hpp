@@ -1,4 +1,5 @@
-// What fields are filled with from the host. Kokkos::deep_copy, compiled once: 0.3 s for each kind of view in each source that calls it.
+// What fields are filled with from the host. Kokkos::deep_copy, compiled once: 0.3 s for each kind of view in
+// each source that calls it.
 #pragma once
 #include <utility>
 #include <vector>

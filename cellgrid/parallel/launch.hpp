@@ -1,13 +1,15 @@
-// Loops over particles, clusters and cells: Kokkos::parallel_for whose machinery is compiled once, not for every body. A body is compiled
-// as one function of a part of the range, where Kokkos compiles it twice (within and outside of a parallel region) and copies every view
-// that it holds once more. Each index must write its own results only.
+// Loops over particles, clusters and cells: Kokkos::parallel_for whose machinery is compiled once, not for
+// every body. A body is compiled as one function of a part of the range, where Kokkos compiles it twice
+// (within and outside of a parallel region) and copies every view that it holds once more. Each index must
+// write its own results only.
 #pragma once
 #include "cellgrid/parallel/types.hpp"
 
 namespace freshet {
 
-// A range whose parts go to whichever thread is free: pair passes take longer where water is dense or walls are near, and threads
-// on a shared machine are not equally fast. Every index writes its own results, so that who does what changes none of them.
+// A range whose parts go to whichever thread is free: pair passes take longer where water is dense or walls
+// are near, and threads on a shared machine are not equally fast. Every index writes its own results, so that
+// who does what changes none of them.
 using DynamicRange = Kokkos::RangePolicy<Exec, Kokkos::Schedule<Kokkos::Dynamic>>;
 
 // clusters: at least so many that fetching a part costs nothing beside it (some 10 us).
@@ -27,8 +29,9 @@ struct AnyBody {
   void (*run)(const void* body, int first, int end);
   const void* body;
 };
-void launch_any(const char* label, const Range& range, const AnyBody& body);         // a part for each thread
-void launch_any(const char* label, const DynamicRange& range, const AnyBody& body);  // parts of the range's chunk size
+void launch_any(const char* label, const Range& range, const AnyBody& body);  // a part for each thread
+void launch_any(const char* label, const DynamicRange& range,
+                const AnyBody& body);  // parts of the range's chunk size
 
 template <class Body>
 void run_part(const void* body, int first, int end) {

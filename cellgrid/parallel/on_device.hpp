@@ -14,10 +14,8 @@ Kokkos::View<T*, Memory> on_device(const std::string& label, const std::vector<T
   const Kokkos::View<T*, Memory> view(Kokkos::ViewAllocateWithoutInitializing(label), values.size());
   const auto host = Kokkos::create_mirror_view(view);
   std::copy(values.begin(), values.end(), host.data());
-  if constexpr (std::is_same_v<T, double> || std::is_same_v<T, int>)
-    assign(view, host);
-  else
-    Kokkos::deep_copy(view, host);
+  if constexpr (std::is_same_v<T, double> || std::is_same_v<T, int>) assign(view, host);
+  else Kokkos::deep_copy(view, host);
   return view;
 }
 

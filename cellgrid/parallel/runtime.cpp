@@ -51,7 +51,8 @@ const char* registers_name() { return instruction_set; }
 std::string better_registers() {
   const std::string machine = machine_instruction_set();
   if (machine == instruction_set) return {};
-  return "this machine has " + machine + ": a build with FRESHET_ARCH=native, as the preset release is, uses it";
+  return "this machine has " + machine +
+         ": a build with FRESHET_ARCH=native, as the preset release is, uses it";
 }
 #endif
 

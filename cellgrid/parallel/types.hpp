@@ -12,7 +12,8 @@
 
 // Of a lambda: no call, and no memory for what it returns.
 #define FRESHET_INLINE_LAMBDA __attribute__((always_inline))
-// Of a function: a call wherever it is used, so that its bits do not depend on what it would be merged with, and its code is there once.
+// Of a function: a call wherever it is used, so that its bits do not depend on what it would be merged with,
+// and its code is there once.
 #define FRESHET_OUT_OF_LINE __attribute__((noinline))
 
 namespace freshet {
@@ -34,12 +35,14 @@ using Memory = Exec::memory_space;
 #endif
 using Range = Kokkos::RangePolicy<Exec>;
 
-// One value per particle: a view that is allocated, copied and let go of by functions compiled once, not in every source.
+// One value per particle: a view that is allocated, copied and let go of by functions compiled once, not in
+// every source.
 template <class T>
 class Field : public Kokkos::View<T*, Memory> {
  public:
   using View = Kokkos::View<T*, Memory>;
-  static_assert(std::is_same_v<T, double> || std::is_same_v<T, int>, "types.cpp has functions for these alone: use a Kokkos::View");
+  static_assert(std::is_same_v<T, double> || std::is_same_v<T, int>,
+                "types.cpp has functions for these alone: use a Kokkos::View");
 
   Field() = default;
 #ifndef FRESHET_DEVICE  // out of line: passes copy dozens, each a call and three branches
@@ -64,7 +67,8 @@ using Input = Kokkos::View<const T*, Memory>;
 template <class View>
 void reserve(View& view, const char* label, int n) {
   const std::size_t wanted = static_cast<std::size_t>(n);
-  if (view.extent(0) < wanted) view = View(Kokkos::ViewAllocateWithoutInitializing(label), wanted + wanted / 2);
+  if (view.extent(0) < wanted)
+    view = View(Kokkos::ViewAllocateWithoutInitializing(label), wanted + wanted / 2);
 }
 
 // Told of each view that on_host gives out: its label and bytes. Where host and device share memory nothing

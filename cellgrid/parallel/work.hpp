@@ -1,14 +1,15 @@
-// Modelled work of a pass, for its rates against the machine's limits (`freshet profile`, perf/). The counts stand beside each
-// kernel; perf/instructions compares them with the instructions that run. An operation is an addition, multiplication, minimum
-// or maximum, a fused multiply-add two of them, an estimate of 1/sqrt one. Bytes: every field that a pass names is moved once.
+// Modelled work of a pass, for its rates against the machine's limits (`freshet profile`, perf/). The counts
+// stand beside each kernel; perf/instructions compares them with the instructions that run. An operation is
+// an addition, multiplication, minimum or maximum, a fused multiply-add two of them, an estimate of 1/sqrt
+// one. Bytes: every field that a pass names is moved once.
 #pragma once
 
 namespace freshet {
 
 struct Cost {
-  double pair_flops = 0;      // per listed pair: a lane and a neighbour of its cluster, within the support or not
+  double pair_flops = 0;  // per listed pair: a lane and a neighbour of its cluster, within the support or not
   double particle_flops = 0;
-  double fields = 0;          // of 8 bytes, read or written, per particle
+  double fields = 0;  // of 8 bytes, read or written, per particle
 };
 
 // Of one launch.

@@ -8,10 +8,12 @@
 namespace freshet {
 
 void ClusterSet::cut(const Rows& rows, int later) {
-  if (row_start_.extent_int(0) < rows.rows + 1) row_start_ = Field<int>("cellgrid.row_start", static_cast<size_t>(2 * rows.rows + 16));
+  if (row_start_.extent_int(0) < rows.rows + 1)
+    row_start_ = Field<int>("cellgrid.row_start", static_cast<size_t>(2 * rows.rows + 16));
   const Field<int> row_start = row_start_;
   const Rows r = rows;
-  Kokkos::parallel_scan("cellgrid::count_clusters", Range(0, rows.rows + 1), KOKKOS_LAMBDA(int row, int& sum, bool last) {
+  Kokkos::parallel_scan(
+      "cellgrid::count_clusters", Range(0, rows.rows + 1), KOKKOS_LAMBDA(int row, int& sum, bool last) {
         if (last) row_start(row) = sum;
         if (row == r.rows) return;
         const int held = r.row_begin(row + 1) - r.row_begin(row);
@@ -24,7 +26,8 @@ void ClusterSet::cut(const Rows& rows, int later) {
     count_ = Field<int>("cellgrid.cluster_count", room);
   }
   const Field<int> first = first_, count = count_;
-  launch("cellgrid::cut_clusters", Range(0, rows.rows), KOKKOS_LAMBDA(int row) {
+  launch(
+      "cellgrid::cut_clusters", Range(0, rows.rows), KOKKOS_LAMBDA(int row) {
         const int begin = r.row_begin(row), end = r.row_begin(row + 1);
         if (begin == end) return;
         int c = row_start(row);
@@ -41,7 +44,8 @@ namespace {
 template <int D>
 struct Sources {
   const double *x0, *x1, *h;
-  KOKKOS_FORCEINLINE_FUNCTION Sources(const VecField<double, D>& x, const Field<double>& h_of) : x0(x.x.data()), x1(x0), h(h_of.data()) {
+  KOKKOS_FORCEINLINE_FUNCTION Sources(const VecField<double, D>& x, const Field<double>& h_of)
+      : x0(x.x.data()), x1(x0), h(h_of.data()) {
     if constexpr (D == 2) x1 = x.y.data();
   }
   KOKKOS_FORCEINLINE_FUNCTION Vec<double, D> x(int j) const {
@@ -72,12 +76,15 @@ struct Lister {
   KOKKOS_FORCEINLINE_FUNCTION Listed listed_in(int c) const {
     Listed listed{&out.list(c, 0), {}, 0, {}};
     if (by_parts)
-      for (int part = 0; part < parts_of_cluster; ++part) listed.place[part] = &out.part_place(c * parts_of_cluster + part, 0);
+      for (int part = 0; part < parts_of_cluster; ++part)
+        listed.place[part] = &out.part_place(c * parts_of_cluster + part, 0);
     return listed;
   }
 
-  // With the sources begin ... end - 1. All by value: places are bytes, and what is written as bytes might be anything in memory.
-  KOKKOS_FORCEINLINE_FUNCTION Listed add(Listed to, const Vec<Lane, D> xi, const Lane reach_i, int begin, int end) const {
+  // With the sources begin ... end - 1. All by value: places are bytes, and what is written as bytes might be
+  // anything in memory.
+  KOKKOS_FORCEINLINE_FUNCTION Listed add(Listed to, const Vec<Lane, D> xi, const Lane reach_i, int begin,
+                                         int end) const {
     const Sources<D> there(source_x, source_h);
     const double far = reach;
     const int room = slab;
@@ -96,7 +103,8 @@ struct Lister {
       return any(felt);
     };
     int j = begin;
-    for (const int sure = smaller(end, begin + room - to.n); j < sure; ++j) {  // these fit in, even if all are near
+    for (const int sure = smaller(end, begin + room - to.n); j < sure;
+         ++j) {  // these fit in, even if all are near
       to.j[to.n] = j;
       to.n += near(j, 1);
     }
@@ -113,7 +121,8 @@ struct Lister {
     const Lane reach_i = reach * me.load(h);
     const Box b = box_of(xi);
     const double mine = largest(reach_i), theirs = sources.largest_h(b.xlo, b.xhi, b.ylo, b.yhi);
-    if (theirs == 0 && mine < sources.support) {  // no source within a tile (each has an h of its own, be it tiny)
+    if (theirs == 0 &&
+        mine < sources.support) {  // no source within a tile (each has an h of its own, be it tiny)
       out.length(c) = 0;
       if (by_parts)
         for (int part = 0; part < parts_of_cluster; ++part) out.part_length(c * parts_of_cluster + part) = 0;
@@ -121,11 +130,13 @@ struct Lister {
     }
     const double far = larger(mine, reach * theirs);
     Listed listed = listed_in(c);
-    sources.for_each_run(b.xlo, b.xhi, b.ylo, b.yhi, far, [&](int begin, int end) { listed = add(listed, xi, reach_i, begin, end); });
+    sources.for_each_run(b.xlo, b.xhi, b.ylo, b.yhi, far,
+                         [&](int begin, int end) { listed = add(listed, xi, reach_i, begin, end); });
     const int n = listed.n;
     out.length(c) = smaller(n, slab);
     if (by_parts)
-      for (int part = 0; part < parts_of_cluster; ++part) out.part_length(c * parts_of_cluster + part) = listed.of_part[part];
+      for (int part = 0; part < parts_of_cluster; ++part)
+        out.part_length(c * parts_of_cluster + part) = listed.of_part[part];
     longest = larger(longest, n);
   }
 };
@@ -142,7 +153,8 @@ void NeighbourList::reserve(int clusters) {
   view_.part_length = {}, view_.part_place = {};
   if (!lists_parts()) return;
   view_.part_length = Field<int>("cellgrid.part_length", parts_of_cluster * room);
-  view_.part_place = decltype(view_.part_place)(Kokkos::ViewAllocateWithoutInitializing("cellgrid.part_place"), parts_of_cluster * room, width);
+  view_.part_place = decltype(view_.part_place)(
+      Kokkos::ViewAllocateWithoutInitializing("cellgrid.part_place"), parts_of_cluster * room, width);
 }
 
 template <int D>
@@ -151,8 +163,16 @@ void NeighbourList::build(const ClusterSet& clusters, const ListRequest<D>& requ
   do {
     if (longest > slab_) slab_ = longest + longest / 4;
     reserve(clusters.size());
-    const Lister<D> lister{clusters, request.x, request.source_x, request.h, request.source_h, request.source_rows,
-                           request.factor * (1 + request.margin), view_, slab_, lists_parts()};
+    const Lister<D> lister{clusters,
+                           request.x,
+                           request.source_x,
+                           request.h,
+                           request.source_h,
+                           request.source_rows,
+                           request.factor * (1 + request.margin),
+                           view_,
+                           slab_,
+                           lists_parts()};
     Kokkos::parallel_reduce(label_, balanced(clusters.size()), lister, Kokkos::Max<int>(longest));
   } while (longest > slab_);
 }
@@ -160,8 +180,9 @@ void NeighbourList::build(const ClusterSet& clusters, const ListRequest<D>& requ
 double NeighbourList::mean_length(const ClusterSet& clusters) const {
   long sum = 0;
   const Field<int> length = view_.length;
-  Kokkos::parallel_reduce("cellgrid::mean_length", Range(0, clusters.size()),
-      KOKKOS_LAMBDA(int c, long& s) { s += length(c); }, sum);
+  Kokkos::parallel_reduce(
+      "cellgrid::mean_length", Range(0, clusters.size()), KOKKOS_LAMBDA(int c, long& s) { s += length(c); },
+      sum);
   return clusters.size() > 0 ? static_cast<double>(sum) / clusters.size() : 0;
 }
 
@@ -173,7 +194,8 @@ double NeighbourList::count_pairs(const ClusterSet& clusters, const ListRequest<
   const Field<double> h = request.h, source_h = request.source_h;
   const double factor = request.factor;
   double pairs = 0;
-  Kokkos::parallel_reduce("cellgrid::pairs", Range(0, clusters.size()),
+  Kokkos::parallel_reduce(
+      "cellgrid::pairs", Range(0, clusters.size()),
       KOKKOS_LAMBDA(int c, double& sum) {
         const Lanes me = sets(c);
         near.for_each(c, [&](int j) {

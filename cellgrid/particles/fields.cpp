@@ -42,7 +42,8 @@ void grow(Field<T>& field, int size, int capacity) {
 
 template <class T>
 const NamedField<T>* find(const std::vector<NamedField<T>>& fields, const std::string& name) {
-  const auto found = std::find_if(fields.begin(), fields.end(), [&](const auto& f) { return f.name == name; });
+  const auto found =
+      std::find_if(fields.begin(), fields.end(), [&](const auto& f) { return f.name == name; });
   return found == fields.end() ? nullptr : &*found;
 }
 
@@ -53,21 +54,24 @@ Field<T> find_made(const std::vector<NamedField<T>>& fields, const std::string& 
 }
 
 template <class T>
-Field<T> find_or_make(std::vector<NamedField<T>>& fields, const std::string& name, const std::string& unit, Carry carry,
-                      int capacity, std::size_t place) {
+Field<T> find_or_make(std::vector<NamedField<T>>& fields, const std::string& name, const std::string& unit,
+                      Carry carry, int capacity, std::size_t place) {
   if (const NamedField<T>* known = find(fields, name)) return known->data;
   fields.push_back({name, unit, carry, allocate<T>(name, capacity, first_line(place))});
   return fields.back().data;
 }
 
 template <class T>
-void permute_all(std::vector<NamedField<T>>& fields, Field<T>& spare, const Input<int>& order, int size, int capacity) {
+void permute_all(std::vector<NamedField<T>>& fields, Field<T>& spare, const Input<int>& order, int size,
+                 int capacity) {
   if (fields.empty()) return;
-  if (spare.extent_int(0) < capacity + padding) spare = allocate<T>("spare", capacity, first_line(fields.size()));
+  if (spare.extent_int(0) < capacity + padding)
+    spare = allocate<T>("spare", capacity, first_line(fields.size()));
   for (NamedField<T>& f : fields) {
     if (!is_sorted(f.carry)) continue;
     const Field<T> from = f.data, to = spare;
-    launch("cellgrid::permute", Range(0, size), KOKKOS_LAMBDA(int i) { to(i) = from(order(i)); });
+    launch(
+        "cellgrid::permute", Range(0, size), KOKKOS_LAMBDA(int i) { to(i) = from(order(i)); });
     std::swap(f.data, spare);
   }
 }
@@ -77,7 +81,8 @@ void copy_all(const std::vector<NamedField<T>>& fields, const Input<int>& from, 
   for (const NamedField<T>& f : fields) {
     if (!is_sorted(f.carry)) continue;
     const Field<T> data = f.data;
-    launch("cellgrid::copy", Range(0, count), KOKKOS_LAMBDA(int k) { data(first + k) = data(from(k)); });
+    launch(
+        "cellgrid::copy", Range(0, count), KOKKOS_LAMBDA(int k) { data(first + k) = data(from(k)); });
   }
 }
 

@@ -1,4 +1,5 @@
-// Structure-of-arrays particle fields, made on request: what nobody asks for is never allocated, sorted or saved.
+// Structure-of-arrays particle fields, made on request: what nobody asks for is never allocated, sorted or
+// saved.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,10 +9,10 @@
 namespace freshet {
 
 enum class Carry {
-  no,      // scratch of one step: neither sorted nor saved
-  sort,    // belongs to its particle: permuted by the sort
-  state,   // as sort, and part of the restart state
-  result   // made anew after each sort: not permuted, but part of the restart state
+  no,     // scratch of one step: neither sorted nor saved
+  sort,   // belongs to its particle: permuted by the sort
+  state,  // as sort, and part of the restart state
+  result  // made anew after each sort: not permuted, but part of the restart state
 };
 inline bool is_sorted(Carry c) { return c == Carry::sort || c == Carry::state; }
 inline bool is_saved(Carry c) { return c == Carry::state || c == Carry::result; }
@@ -31,8 +32,8 @@ class FieldSet {
   int size() const { return size_; }
   int capacity() const { return capacity_; }
 
-  // Changes the particle count. Existing values stay; the capacity grows by half when it is too small (the only
-  // allocation that a step may cause). Views obtained before a growth are stale: ask again.
+  // Changes the particle count. Existing values stay; the capacity grows by half when it is too small (the
+  // only allocation that a step may cause). Views obtained before a growth are stale: ask again.
   void resize(int size);
 
   // Makes the field of that name, zero-filled; where it exists already that one is returned.

@@ -1,12 +1,13 @@
-// The particles within a distance of any place, also across the sides of a periodic domain: for work that is done point by
-// point on few or irregular places, where a cluster list would not pay.
+// The particles within a distance of any place, also across the sides of a periodic domain: for work that is
+// done point by point on few or irregular places, where a cluster list would not pay.
 #pragma once
 #include "cellgrid/particles/order.hpp"
 #include "cellgrid/simd/vec.hpp"
 
 namespace freshet {
 
-// Lengths [m] after which the domain repeats itself; 0 = it does not. Particles are kept in low <= x < low + length.
+// Lengths [m] after which the domain repeats itself; 0 = it does not. Particles are kept in low <= x < low +
+// length.
 struct Period {
   Vec<double, 2> low, length;
 
@@ -37,12 +38,14 @@ struct Near {
   VecField<double, 2> x;  // m
   Period period;
 
-  // Calls see(j, x_j - p, r2) for every particle nearer than reach to p, in an order that depends on positions and ids alone.
-  // A periodic domain is longer than 2 reach.
+  // Calls see(j, x_j - p, r2) for every particle nearer than reach to p, in an order that depends on
+  // positions and ids alone. A periodic domain is longer than 2 reach.
   template <class See>
   KOKKOS_INLINE_FUNCTION void for_each(const Vec<double, 2>& p, double reach, const See& see) const {
-    const double xlo = image(p.x, reach, period.low.x, period.length.x, -1), xhi = image(p.x, reach, period.low.x, period.length.x, 1);
-    const double ylo = image(p.y, reach, period.low.y, period.length.y, -1), yhi = image(p.y, reach, period.low.y, period.length.y, 1);
+    const double xlo = image(p.x, reach, period.low.x, period.length.x, -1),
+                 xhi = image(p.x, reach, period.low.x, period.length.x, 1);
+    const double ylo = image(p.y, reach, period.low.y, period.length.y, -1),
+                 yhi = image(p.y, reach, period.low.y, period.length.y, 1);
     for (double sy = ylo; sy <= yhi; sy += 1)
       for (double sx = xlo; sx <= xhi; sx += 1)
         from({p.x + sx * period.length.x, p.y + sy * period.length.y}, reach, see);
@@ -50,7 +53,8 @@ struct Near {
 
  private:
   // -1, 0 or 1: whether the domain must also be looked at from the side beyond it.
-  static KOKKOS_FORCEINLINE_FUNCTION double image(double x, double reach, double low, double length, int side) {
+  static KOKKOS_FORCEINLINE_FUNCTION double image(double x, double reach, double low, double length,
+                                                  int side) {
     if (length <= 0) return 0;
     return side < 0 ? (x + reach > low + length ? -1 : 0) : (x - reach < low ? 1 : 0);
   }

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cellgrid/particles/clusters.hpp"
 #include "cellgrid/parallel/launch.hpp"
 #include "cellgrid/parallel/runtime.hpp"
+#include "cellgrid/particles/clusters.hpp"
 
 namespace freshet {
 namespace {
@@ -30,7 +30,8 @@ struct ChunkExtent {
     for (int first = c * chunk; first < end; first += lanes) {
       const Lanes me{first, smaller(lanes, end - first)};
       const Lane px = me.load(x), py = plane ? me.load(y) : Lane(0.0);
-      const auto counts = (Lane(-0.5) < to_real(me.load(id))) & (-far < px) & (px < far) & (-far < py) & (py < far);
+      const auto counts =
+          (Lane(-0.5) < to_real(me.load(id))) & (-far < px) & (px < far) & (-far < py) & (py < far);
       low_x = select(counts, smaller(low_x, px), low_x), high_x = select(counts, larger(high_x, px), high_x);
       low_y = select(counts, smaller(low_y, py), low_y), high_y = select(counts, larger(high_y, py), high_y);
     }
@@ -42,8 +43,8 @@ struct ChunkExtent {
 Extent extent_of(const Field<double>& x, const Field<double>& y, const Field<int>& id, int n) {
   Extent e;
   Kokkos::parallel_reduce("cellgrid::extent", Range(0, (n + ChunkExtent::chunk - 1) / ChunkExtent::chunk),
-                          ChunkExtent{x, y, id, n, y.extent(0) > 0}, Kokkos::Min<double>(e.xlo), Kokkos::Max<double>(e.xhi),
-                          Kokkos::Min<double>(e.ylo), Kokkos::Max<double>(e.yhi));
+                          ChunkExtent{x, y, id, n, y.extent(0) > 0}, Kokkos::Min<double>(e.xlo),
+                          Kokkos::Max<double>(e.xhi), Kokkos::Min<double>(e.ylo), Kokkos::Max<double>(e.yhi));
   return e.xlo <= e.xhi ? e : Extent{};
 }
 
@@ -60,14 +61,17 @@ struct Keys {
   }
   KOKKOS_FORCEINLINE_FUNCTION LaneIndex operator()(const Lanes& me) const {
     const LaneIndex bin = cell((me.load(x) - rows.x_origin) * rows.per_bin_width, rows.first_bin, rows.bins);
-    const LaneIndex row = plane ? cell((me.load(y) - rows.y_origin) * rows.per_row_height, rows.first_row, rows.rows) : LaneIndex(0);
+    const LaneIndex row =
+        plane ? cell((me.load(y) - rows.y_origin) * rows.per_row_height, rows.first_row, rows.rows)
+              : LaneIndex(0);
     const Lane key = to_real(row * (rows.columns * Rows::block_bins) + bin);
     return to_index(select(Lane(-0.5) < to_real(me.load(id)), key, Lane(-1.0)));
   }
 };
 
-// Threads count in tables of their own: an atomic takes ten times as long as an addition. Of more threads, or where most cells
-// are empty, the tables would cost more; of 4e8 cells they would have more counters than an int has numbers.
+// Threads count in tables of their own: an atomic takes ten times as long as an addition. Of more threads, or
+// where most cells are empty, the tables would cost more; of 4e8 cells they would have more counters than an
+// int has numbers.
 int tables_for(int cells, int n) {
   const int threads = thread_count();
   return threads > 4 || cells / 4 > n || cells > 400000000 ? 1 : threads == 3 ? 4 : threads;
@@ -94,10 +98,12 @@ struct Count {
   }
 };
 
-// From the numbers in each cell, table by table, to the place of the first of them; those of table 0 are the cells' own.
+// From the numbers in each cell, table by table, to the place of the first of them; those of table 0 are the
+// cells' own.
 template <int tables>
 void set_places(const Field<int>& start, int stride) {
-  Kokkos::parallel_scan("cellgrid::scan", Range(0, stride), KOKKOS_LAMBDA(int c, int& sum, bool last) {
+  Kokkos::parallel_scan(
+      "cellgrid::scan", Range(0, stride), KOKKOS_LAMBDA(int c, int& sum, bool last) {
         int next = sum;
         for (int t = 0; t < tables; ++t) {
           const int here = start(t * stride + c);
@@ -109,7 +115,9 @@ void set_places(const Field<int>& start, int stride) {
 }
 
 // Cells of a width that cover a length; a period's own rounding makes no further one.
-int cells(double length, double width) { return std::max(static_cast<int>(std::ceil(length / width - 1e-9)), 1); }
+int cells(double length, double width) {
+  return std::max(static_cast<int>(std::ceil(length / width - 1e-9)), 1);
+}
 
 // Restores the order by id within one bin; bins hold about one particle, but clustered input may fill them.
 KOKKOS_INLINE_FUNCTION void sort_by_id(int* order, int n, const int* id) {
@@ -150,7 +158,8 @@ struct Blocks {
 
 }  // namespace
 
-RowOrder::RowOrder(int dimension, double spacing, const Box& domain) : dimension_(dimension), spacing_(spacing) {
+RowOrder::RowOrder(int dimension, double spacing, const Box& domain)
+    : dimension_(dimension), spacing_(spacing) {
   constexpr double most = 3e7;  // blocks of the whole domain: what a stray particle may make of the window
   const double width = domain.xhi - domain.xlo, height = dimension == 2 ? domain.yhi - domain.ylo : 0;
   rows_.x_origin = domain.xlo;
@@ -168,8 +177,12 @@ RowOrder::RowOrder(int dimension, double spacing, const Box& domain) : dimension
 // The window begins at a whole square of bins, so that what is built on those is fixed in space too.
 void RowOrder::lay_window(const FieldSet& particles) {
   const Extent e = extent_of(x_, y_, id_, particles.size());
-  const auto bin = [&](double x) { return Rows::cell((x - rows_.x_origin) * rows_.per_bin_width, 0, domain_bins_); };
-  const auto row = [&](double y) { return Rows::cell((y - rows_.y_origin) * rows_.per_row_height, 0, domain_rows_); };
+  const auto bin = [&](double x) {
+    return Rows::cell((x - rows_.x_origin) * rows_.per_bin_width, 0, domain_bins_);
+  };
+  const auto row = [&](double y) {
+    return Rows::cell((y - rows_.y_origin) * rows_.per_row_height, 0, domain_rows_);
+  };
   const int square = std::max(1, static_cast<int>(std::lround(rows_.row_height / rows_.bin_width)));
   rows_.first_bin = bin(e.xlo) / square * square;
   rows_.first_row = row(e.ylo);
@@ -180,15 +193,18 @@ void RowOrder::lay_window(const FieldSet& particles) {
   rows_.columns = (rows_.bins - 1) / Rows::block_bins + 1;
 }
 
-// Which blocks hold particles; returns how many cells they have. Keys: block and bin within it, -1 = to be dropped.
+// Which blocks hold particles; returns how many cells they have. Keys: block and bin within it, -1 = to be
+// dropped.
 int RowOrder::keep_blocks(const FieldSet& particles) {
   const int n = particles.size(), blocks = rows_.rows * rows_.columns;
-  if (mark_.extent_int(0) < blocks + 1) mark_ = Field<int>("cellgrid.mark", static_cast<size_t>(blocks + blocks / 2 + 256));
+  if (mark_.extent_int(0) < blocks + 1)
+    mark_ = Field<int>("cellgrid.mark", static_cast<size_t>(blocks + blocks / 2 + 256));
   reserve(rows_.block, "cellgrid.block", blocks + 1);
   reserve(key_, "cellgrid.key", n);
   const Field<int> key = key_, mark = mark_, block = rows_.block;
   const Keys keys{rows_, x_, y_, id_, dimension_ == 2};
-  launch("cellgrid::mark", Range(0, freshet::blocks(n)), KOKKOS_LAMBDA(int b) {
+  launch(
+      "cellgrid::mark", Range(0, freshet::blocks(n)), KOKKOS_LAMBDA(int b) {
         const Lanes me = freshet::block(b, n);
         for_each_lane(keys(me), [&](int lane, int k) {
           if (lane >= me.count) return;
@@ -196,7 +212,8 @@ int RowOrder::keep_blocks(const FieldSet& particles) {
           if (k >= 0 && mark(k / Rows::block_bins) == 0) mark(k / Rows::block_bins) = 1;
         });
       });
-  Kokkos::parallel_scan("cellgrid::keep", Range(0, blocks / Blocks::run + 1), KOKKOS_LAMBDA(int run, int& sum, bool last) {
+  Kokkos::parallel_scan(
+      "cellgrid::keep", Range(0, blocks / Blocks::run + 1), KOKKOS_LAMBDA(int run, int& sum, bool last) {
         const Blocks here{mark, block, run * Blocks::run, smaller((run + 1) * Blocks::run, blocks + 1)};
         const int kept = here.kept();
         if (last) here.number(sum, kept);
@@ -214,23 +231,31 @@ void RowOrder::count_bins(const FieldSet& particles, int cells) {
   reserve(slot_, "cellgrid.slot", n);
   const Field<int> start = rows_.start;
   const Count count{key_, slot_, start, rows_.block, cells};
-  launch("cellgrid::clear", Range(0, tables * stride), KOKKOS_LAMBDA(int c) { start(c) = 0; });
+  launch(
+      "cellgrid::clear", Range(0, tables * stride), KOKKOS_LAMBDA(int c) { start(c) = 0; });
   if (shared)
-    launch("cellgrid::count", Range(0, n), KOKKOS_LAMBDA(int i) { count.shared(i); });
+    launch(
+        "cellgrid::count", Range(0, n), KOKKOS_LAMBDA(int i) { count.shared(i); });
   else
-    launch("cellgrid::count", Range(0, tables), KOKKOS_LAMBDA(int t) {
-          const long per = (static_cast<long>(n) + tables - 1) / tables, end = smaller((t + 1) * per, static_cast<long>(n));
+    launch(
+        "cellgrid::count", Range(0, tables), KOKKOS_LAMBDA(int t) {
+          const long per = (static_cast<long>(n) + tables - 1) / tables,
+                     end = smaller((t + 1) * per, static_cast<long>(n));
           for (long i = t * per; i < end; ++i) count.alone(static_cast<int>(i), t * stride);
         });
-  tables == 1 ? set_places<1>(start, stride) : tables == 2 ? set_places<2>(start, stride) : set_places<4>(start, stride);
+  tables == 1   ? set_places<1>(start, stride)
+  : tables == 2 ? set_places<2>(start, stride)
+                : set_places<4>(start, stride);
 }
 
 void RowOrder::place(const FieldSet& particles, int cells) {
   const int n = particles.size();
   reserve(order_, "cellgrid.order", n);
   const Field<int> key = key_, slot = slot_, start = rows_.start, order = order_, id = id_;
-  launch("cellgrid::place", Range(0, n), KOKKOS_LAMBDA(int i) { order(start(key(i)) + slot(i)) = i; });
-  launch("cellgrid::settle", Range(0, cells), KOKKOS_LAMBDA(int c) {
+  launch(
+      "cellgrid::place", Range(0, n), KOKKOS_LAMBDA(int i) { order(start(key(i)) + slot(i)) = i; });
+  launch(
+      "cellgrid::settle", Range(0, cells), KOKKOS_LAMBDA(int c) {
         const int first = start(c), in_bin = start(c + 1) - first;
         if (in_bin > 1) sort_by_id(&order(first), in_bin, id.data());
       });
@@ -259,7 +284,8 @@ int RowOrder::lay_tiles() {
 
 void RowOrder::measure_reach(const FieldSet& particles, const Field<double>& h, double support_factor) {
   double h_max = 0;
-  Kokkos::parallel_reduce("cellgrid::largest_h", Range(0, particles.size()),
+  Kokkos::parallel_reduce(
+      "cellgrid::largest_h", Range(0, particles.size()),
       KOKKOS_LAMBDA(int i, double& m) { m = larger(m, h(i)); }, Kokkos::Max<double>(h_max));
   rows_.support = std::isfinite(h_max) ? std::max(support_factor * h_max, spacing_) : spacing_;
   const auto covering = [&](double width, int n) {
@@ -276,7 +302,8 @@ void RowOrder::measure_reach(const FieldSet& particles, const Field<double>& h, 
   reserve(rows_.reach, "cellgrid.reach", tiles);
   const Rows rows = rows_;
   const Field<double> tile_h = tile_h_;
-  launch("cellgrid::tile_h", Range(0, tiles), KOKKOS_LAMBDA(int t) {
+  launch(
+      "cellgrid::tile_h", Range(0, tiles), KOKKOS_LAMBDA(int t) {
         const int ty = t / rows.tiles_x, tx = t % rows.tiles_x;
         const int b0 = tx * rows.tile_bins, b1 = smaller(b0 + rows.tile_bins, rows.bins);
         double m = 0;
@@ -285,7 +312,8 @@ void RowOrder::measure_reach(const FieldSet& particles, const Field<double>& h, 
             for (int i = rows.begin(r, b0); i < rows.end(r, b1 - 1); ++i) m = larger(m, h(i));
         tile_h(t) = m;
       });
-  launch("cellgrid::reach", Range(0, tiles), KOKKOS_LAMBDA(int t) {
+  launch(
+      "cellgrid::reach", Range(0, tiles), KOKKOS_LAMBDA(int t) {
         const int ty = t / rows.tiles_x, tx = t % rows.tiles_x;
         double m = 0;
         for (int y = larger(ty - 1, 0); y <= smaller(ty + 1, rows.tiles_y - 1); ++y)

@@ -1,21 +1,24 @@
-// Pairs whose coefficients are stored (SELL-W): the W particles of a cluster are the lanes of a slice, and entry e
-// of a slice holds one neighbour of each lane. Slices are cut row by row as clusters are, so a particle's slice
-// hangs on its own row alone. Made once for particles at rest; matrix products and pair passes then stream through
-// the entries.
-// Short rows are padded with the particle itself: x_j - x_i = 0, so whatever vanishes with the distance needs no mask.
+// Pairs whose coefficients are stored (SELL-W): the W particles of a cluster are the lanes of a slice, and
+// entry e of a slice holds one neighbour of each lane. Slices are cut row by row as clusters are, so a
+// particle's slice hangs on its own row alone. Made once for particles at rest; matrix products and pair
+// passes then stream through the entries. Short rows are padded with the particle itself: x_j - x_i = 0, so
+// whatever vanishes with the distance needs no mask.
 #pragma once
-#include "cellgrid/particles/clusters.hpp"
 #include "cellgrid/parallel/launch.hpp"
+#include "cellgrid/particles/clusters.hpp"
 
 namespace freshet {
 
-// The other particles of one entry, lane by lane: j, and the slot where its vector values stand. The slot is j itself, but for
-// mirror images behind a wall: they have the scalars of j and reflected vectors in slots behind the particles.
+// The other particles of one entry, lane by lane: j, and the slot where its vector values stand. The slot is
+// j itself, but for mirror images behind a wall: they have the scalars of j and reflected vectors in slots
+// behind the particles.
 struct PairIndex {
   LaneIndex j, slot;
 };
 
-KOKKOS_FORCEINLINE_FUNCTION Lane gather(const double* table, const PairIndex& index) { return gather(table, index.j); }
+KOKKOS_FORCEINLINE_FUNCTION Lane gather(const double* table, const PairIndex& index) {
+  return gather(table, index.j);
+}
 KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 1> gather(const VecField<double, 1>& f, const PairIndex& index) {
   return {gather(f.x.data(), index.slot)};
 }
@@ -36,17 +39,20 @@ KOKKOS_FORCEINLINE_FUNCTION Lane load_each(const double* table, const int* index
   return lanes_of<Lane>([&](int lane) { return table[index[lane]]; });
 }
 
-// The pairs as the device sees them. A coefficient is a Field with one value per entry and lane (Pairs::coefficient).
+// The pairs as the device sees them. A coefficient is a Field with one value per entry and lane
+// (Pairs::coefficient).
 struct PairView {
   int particles = 0;
   ClusterSet clusters;  // the slices' particles
-  Field<int> start;  // first entry of slice s; slices() + 1 values
-  Field<int> j;      // neighbour of lane l in entry e at [e * lanes + l]
-  Field<int> slot;   // where its vectors stand, likewise; the same field as j where there are no images
+  Field<int> start;     // first entry of slice s; slices() + 1 values
+  Field<int> j;         // neighbour of lane l in entry e at [e * lanes + l]
+  Field<int> slot;      // where its vectors stand, likewise; the same field as j where there are no images
 
   KOKKOS_FORCEINLINE_FUNCTION int slices() const { return clusters.size(); }
   KOKKOS_FORCEINLINE_FUNCTION Lanes operator()(int slice) const { return clusters(slice); }
-  KOKKOS_FORCEINLINE_FUNCTION static size_t at(int entry, int lane = 0) { return static_cast<size_t>(entry) * lanes + lane; }
+  KOKKOS_FORCEINLINE_FUNCTION static size_t at(int entry, int lane = 0) {
+    return static_cast<size_t>(entry) * lanes + lane;
+  }
 
   KOKKOS_FORCEINLINE_FUNCTION PairIndex neighbours(int entry) const {
     return {loaded<LaneIndex>(j.data() + at(entry)), loaded<LaneIndex>(slot.data() + at(entry))};
@@ -54,17 +60,21 @@ struct PairView {
   static KOKKOS_FORCEINLINE_FUNCTION Lane load(const Field<double>& coefficient, int entry) {
     return loaded<Lane>(coefficient.data() + at(entry));
   }
-  static KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 1> load(const VecField<double, 1>& f, int entry) { return {load(f.x, entry)}; }
+  static KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 1> load(const VecField<double, 1>& f, int entry) {
+    return {load(f.x, entry)};
+  }
   static KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 2> load(const VecField<double, 2>& f, int entry) {
     return {load(f.x, entry), load(f.y, entry)};
   }
   static KOKKOS_FORCEINLINE_FUNCTION void store(const Field<double>& coefficient, int entry, Lane value) {
     freshet::store(coefficient.data() + at(entry), value);
   }
-  static KOKKOS_FORCEINLINE_FUNCTION void store(const VecField<double, 1>& f, int entry, const Vec<Lane, 1>& a) {
+  static KOKKOS_FORCEINLINE_FUNCTION void store(const VecField<double, 1>& f, int entry,
+                                                const Vec<Lane, 1>& a) {
     store(f.x, entry, a.x);
   }
-  static KOKKOS_FORCEINLINE_FUNCTION void store(const VecField<double, 2>& f, int entry, const Vec<Lane, 2>& a) {
+  static KOKKOS_FORCEINLINE_FUNCTION void store(const VecField<double, 2>& f, int entry,
+                                                const Vec<Lane, 2>& a) {
     store(f.x, entry, a.x);
     store(f.y, entry, a.y);
   }
@@ -76,9 +86,10 @@ struct PairView {
     for (int e = start(slice); e < end; ++e) pair(e, neighbours(e));
   }
 
-  // sum_j a_ij x_j per lane: the off-diagonal part of a matrix product. Padding must hold a = 0. Coefficients and indices are
-  // asked for in time: the hardware does not look beyond the page.
-  KOKKOS_FORCEINLINE_FUNCTION Lane weighted_sum(int slice, const Field<double>& a, const Field<double>& x) const {
+  // sum_j a_ij x_j per lane: the off-diagonal part of a matrix product. Padding must hold a = 0. Coefficients
+  // and indices are asked for in time: the hardware does not look beyond the page.
+  KOKKOS_FORCEINLINE_FUNCTION Lane weighted_sum(int slice, const Field<double>& a,
+                                                const Field<double>& x) const {
     constexpr int ahead = 48;  // entries
     Lane sum(0.0);
     const int end = start(slice + 1);
@@ -91,7 +102,8 @@ struct PairView {
   }
 };
 
-// A product y = d x - sum a x; per entry, padding included: the coefficient and the index are read once, x stays in the cache.
+// A product y = d x - sum a x; per entry, padding included: the coefficient and the index are read once, x
+// stays in the cache.
 inline constexpr Cost matvec_cost{2, 2, 3};
 inline constexpr double matvec_bytes_per_entry = 12;
 
@@ -112,8 +124,8 @@ struct Nearby {
   Field<double> h;
   double half;  // of the support / h
 
-  // A billionth beyond the support: lattices have pairs at just that distance, and rounding, which differs from one pass's machine
-  // code to another's, would decide which of them are listed.
+  // A billionth beyond the support: lattices have pairs at just that distance, and rounding, which differs
+  // from one pass's machine code to another's, would decide which of them are listed.
   explicit Nearby(const PairRequest<D>& request)
       : rows(request.rows), x(request.x), h(request.h), half((1 + 1e-9) * 0.5 * request.factor) {}
 
@@ -139,15 +151,18 @@ class Pairs {
   template <int D>
   void build(int particles, const PairRequest<D>& request);
 
-  // visit(i, put) calls put(j, slot) for every neighbour of i, the same ones each time that it is asked. rows: the particles' order.
-  // images: some slot is not j. Listing again keeps the room that there is; more is made with some to spare.
+  // visit(i, put) calls put(j, slot) for every neighbour of i, the same ones each time that it is asked.
+  // rows: the particles' order. images: some slot is not j. Listing again keeps the room that there is; more
+  // is made with some to spare.
   template <class Visit>
   void list(int particles, const Rows& rows, const Visit& visit, bool images = false);
 
   const PairView& view() const { return view_; }
   int entries() const { return entries_; }  // of all slices; a coefficient has lanes times as many values
   // A zero coefficient of every pair that there is room for.
-  Field<double> coefficient(const std::string& label) const { return Field<double>(label, view_.j.extent(0)); }
+  Field<double> coefficient(const std::string& label) const {
+    return Field<double>(label, view_.j.extent(0));
+  }
   template <int D>
   VecField<double, D> vector_coefficient(const std::string& label) const;
 
@@ -156,13 +171,14 @@ class Pairs {
   int entries_ = 0;
 };
 
-// The first entry of each slice, in view.start; the longest row of a slice is its number of entries. Returns that of all slices. Free, as
-// the next: nvcc takes no launch in a private member.
+// The first entry of each slice, in view.start; the longest row of a slice is its number of entries. Returns
+// that of all slices. Free, as the next: nvcc takes no launch in a private member.
 template <class Visit>
 int place_slices(const PairView& view, const Visit& visit) {
   const int slices = view.slices();
   const Field<int> start = view.start;
-  launch("cellgrid::count_pairs", Range(0, slices), KOKKOS_LAMBDA(int s) {
+  launch(
+      "cellgrid::count_pairs", Range(0, slices), KOKKOS_LAMBDA(int s) {
         const Lanes me = view(s);
         int longest = 0;
         for (int l = 0; l < me.count; ++l) {
@@ -172,7 +188,8 @@ int place_slices(const PairView& view, const Visit& visit) {
         }
         start(s) = longest;
       });
-  Kokkos::parallel_scan("cellgrid::place_slices", Range(0, slices + 1), KOKKOS_LAMBDA(int s, int& sum, bool last) {
+  Kokkos::parallel_scan(
+      "cellgrid::place_slices", Range(0, slices + 1), KOKKOS_LAMBDA(int s, int& sum, bool last) {
         const int here = s < slices ? start(s) : 0;
         if (last) start(s) = sum;
         sum += here;
@@ -184,7 +201,8 @@ int place_slices(const PairView& view, const Visit& visit) {
 
 template <class Visit>
 void fill_pairs(const PairView& view, const Visit& visit) {
-  launch("cellgrid::fill_pairs", Range(0, view.slices()), KOKKOS_LAMBDA(int s) {
+  launch(
+      "cellgrid::fill_pairs", Range(0, view.slices()), KOKKOS_LAMBDA(int s) {
         const Lanes me = view(s);
         for (int l = 0; l < lanes; ++l) {
           const int i = me.particle(l);
@@ -204,10 +222,14 @@ void Pairs::list(int particles, const Rows& rows, const Visit& visit, bool image
   view_.particles = particles;
   view_.clusters.cut(rows);
   const int slices = view_.slices();
-  if (view_.start.extent_int(0) <= slices) view_.start = Field<int>("cellgrid.pair_start", static_cast<size_t>(slices + slices / 8 + 1));
+  if (view_.start.extent_int(0) <= slices)
+    view_.start = Field<int>("cellgrid.pair_start", static_cast<size_t>(slices + slices / 8 + 1));
   entries_ = place_slices(view_, visit);
-  const size_t held = view_.j.extent(0), wanted = PairView::at(entries_), room = held > 0 ? wanted + wanted / 4 : wanted;
-  const auto indices = [](const char* label, size_t n) { return Field<int>(Kokkos::ViewAllocateWithoutInitializing(label), n); };
+  const size_t held = view_.j.extent(0), wanted = PairView::at(entries_),
+               room = held > 0 ? wanted + wanted / 4 : wanted;
+  const auto indices = [](const char* label, size_t n) {
+    return Field<int>(Kokkos::ViewAllocateWithoutInitializing(label), n);
+  };
   const bool fits = wanted <= held && held > 0, had_images = view_.slot.data() != view_.j.data();
   if (!fits) view_.j = indices("cellgrid.pair_j", room);
   if (!images) view_.slot = view_.j;

@@ -3,7 +3,8 @@
 namespace freshet {
 
 double sum_of_values(const char* label, int n, const Field<double>& values) {
-  return sum_of_particles<1>(label, n, KOKKOS_LAMBDA(const Lanes& me) { return LaneAddends<1>{{me.load(values)}}; })[0];
+  return sum_of_particles<1>(
+      label, n, KOKKOS_LAMBDA(const Lanes& me) { return LaneAddends<1>{{me.load(values)}}; })[0];
 }
 
 #ifndef FRESHET_DEVICE

@@ -1,6 +1,6 @@
-// Sums over particles that do not depend on the order of the terms, so neither on threads, chunks, lanes nor who stands where:
-// every term is cut at fixed places into integers of 32 bits, and integers are added. What is cut off lies below 2^-64 of the
-// largest term (a double's own rounding is 2^-53 of each).
+// Sums over particles that do not depend on the order of the terms, so neither on threads, chunks, lanes nor
+// who stands where: every term is cut at fixed places into integers of 32 bits, and integers are added. What
+// is cut off lies below 2^-64 of the largest term (a double's own rounding is 2^-53 of each).
 #pragma once
 #include <cmath>
 #include <utility>
@@ -9,8 +9,9 @@
 
 namespace freshet {
 
-// A sum as three integers, in units of 2^(32 top), 2^(32 (top - 1)) and 2^(32 (top - 2)). top: the place of the largest term so
-// far. Exact for 1e9 terms. Terms of 2^959 and more count as infinite, what lies below 2^-928 as zero.
+// A sum as three integers, in units of 2^(32 top), 2^(32 (top - 1)) and 2^(32 (top - 2)). top: the place of
+// the largest term so far. Exact for 1e9 terms. Terms of 2^959 and more count as infinite, what lies below
+// 2^-928 as zero.
 class IntegerSum {
  public:
   static constexpr int bits = 32, parts = 3, lowest = -27, highest = 29;
@@ -22,8 +23,8 @@ class IntegerSum {
     __builtin_memcpy(&value, &pattern, sizeof value);
     return value;
   }
-  // The place at which a term begins: |term| < unit(place + 1) / 2, so that from a higher place it is rounded to nothing there,
-  // which is what is left of it where a larger term comes later.
+  // The place at which a term begins: |term| < unit(place + 1) / 2, so that from a higher place it is rounded
+  // to nothing there, which is what is left of it where a larger term comes later.
   static KOKKOS_FORCEINLINE_FUNCTION int place_of(double term) {
     long long pattern;
     __builtin_memcpy(&pattern, &term, sizeof pattern);
@@ -36,9 +37,12 @@ class IntegerSum {
   KOKKOS_INLINE_FUNCTION int top() const { return top_; }
   // Multiples of the part's unit, in each lane.
   KOKKOS_INLINE_FUNCTION void add(int part, Lane multiples) {
-    for_each_lane(multiples * unit(part - top_), [&](int, double units) { part_[part] += static_cast<long long>(units); });
+    for_each_lane(multiples * unit(part - top_),
+                  [&](int, double units) { part_[part] += static_cast<long long>(units); });
   }
-  KOKKOS_INLINE_FUNCTION void add_not_finite(double term) { odd_ += term < 0 ? -HUGE_VAL : term > 0 ? HUGE_VAL : term; }
+  KOKKOS_INLINE_FUNCTION void add_not_finite(double term) {
+    odd_ += term < 0 ? -HUGE_VAL : term > 0 ? HUGE_VAL : term;
+  }
 
   // Parts that lie too low for the new place are forgotten, of every term alike.
   KOKKOS_INLINE_FUNCTION void raise(int place) {
@@ -56,7 +60,8 @@ class IntegerSum {
   // Rounded once or twice; infinite or NaN where a term was.
   double value() const {
     long long digit[parts] = {part_[0], part_[1], part_[2]};
-    for (int k = parts - 1; k > 0; --k) {  // digits of -2^31 ... 2^31: what leads is then larger than what follows
+    for (int k = parts - 1; k > 0;
+         --k) {  // digits of -2^31 ... 2^31: what leads is then larger than what follows
       const long long carry = (digit[k] + (1ll << (bits - 1))) >> bits;
       digit[k] -= carry * (1ll << bits);
       digit[k - 1] += carry;
@@ -72,8 +77,8 @@ class IntegerSum {
   int top_ = lowest;
 };
 
-// The terms of some slices in a row, lane by lane: in doubles, which hold the integers of 2^20 slices exactly. A value without
-// arrays, of which no address is taken: it stays in registers.
+// The terms of some slices in a row, lane by lane: in doubles, which hold the integers of 2^20 slices
+// exactly. A value without arrays, of which no address is taken: it stays in registers.
 struct LaneSum {
   double limit;  // what terms are smaller than
   Lane high, middle, low;
@@ -100,11 +105,13 @@ KOKKOS_FORCEINLINE_FUNCTION LaneSum added(const LaneSum sum, Lane term) {
   constexpr double per_part = 0x1p-32;
   const double shift = 0x1.8p53 * per_part * sum.limit;  // 3/2 2^52 of the highest part's unit
   const Lane high = taken_from(term, shift), middle = taken_from(term, per_part * shift);
-  return {sum.limit, sum.high + high, sum.middle + middle, sum.low + taken_from(term, per_part * per_part * shift)};
+  return {sum.limit, sum.high + high, sum.middle + middle,
+          sum.low + taken_from(term, per_part * per_part * shift)};
 }
 
 // Makes room for a term larger than any before; what is not finite goes elsewhere.
-FRESHET_OUT_OF_LINE KOKKOS_INLINE_FUNCTION LaneSum added_anew(const LaneSum sum, IntegerSum& total, Lane term) {
+FRESHET_OUT_OF_LINE KOKKOS_INLINE_FUNCTION LaneSum added_anew(const LaneSum sum, IntegerSum& total,
+                                                              Lane term) {
   sum.end(total);
   Lane finite(0.0);
   for_each_lane(term, [&](int lane, double one) {
@@ -115,7 +122,8 @@ FRESHET_OUT_OF_LINE KOKKOS_INLINE_FUNCTION LaneSum added_anew(const LaneSum sum,
   return added(LaneSum::from(total.top()), finite);
 }
 
-// The term as a number of its own: a product that is rounded to units at once would leave another rest than a double's.
+// The term as a number of its own: a product that is rounded to units at once would leave another rest than a
+// double's.
 KOKKOS_FORCEINLINE_FUNCTION LaneSum added(const LaneSum sum, IntegerSum& total, Lane term) {
   term = rounded(term);
   if (any(!(size_of(term) < Lane(sum.limit)))) {
@@ -169,7 +177,8 @@ KOKKOS_FORCEINLINE_FUNCTION LaneAddends<K> addends_of(const Lanes& me, const Eac
   return terms;
 }
 
-// The terms of particles 0 ... n - 1 by slices, of one call for a slice's particles together or of one for each.
+// The terms of particles 0 ... n - 1 by slices, of one call for a slice's particles together or of one for
+// each.
 template <int K, class Values>
 struct AddendsTogether {
   Values values;
@@ -179,7 +188,8 @@ struct AddendsTogether {
     return counted(me, values(me), std::make_integer_sequence<int, K>());
   }
   template <int... k>
-  static KOKKOS_FORCEINLINE_FUNCTION LaneAddends<K> counted(const Lanes& me, const LaneAddends<K>& terms, std::integer_sequence<int, k...>) {
+  static KOKKOS_FORCEINLINE_FUNCTION LaneAddends<K> counted(const Lanes& me, const LaneAddends<K>& terms,
+                                                            std::integer_sequence<int, k...>) {
     return {{freshet::counted(me, terms[k])...}};
   }
 };
@@ -187,7 +197,9 @@ template <int K, class Values>
 struct AddendsApart {
   Values values;
   int n;
-  KOKKOS_FORCEINLINE_FUNCTION LaneAddends<K> operator()(int s) const { return addends_of<K>(block(s, n), values); }
+  KOKKOS_FORCEINLINE_FUNCTION LaneAddends<K> operator()(int s) const {
+    return addends_of<K>(block(s, n), values);
+  }
 };
 
 // K of those.
@@ -251,29 +263,32 @@ IntegerSums<K> sum_of_any_rows(const char* label, int rows, const AnyRow<K>& row
 
 template <int K, class Pass>
 IntegerSums<K> sum_of_rows(const char* label, int rows, const Pass& pass) {
-  const auto add = [](const void* of, int row, IntegerSums<K>& total) { (*static_cast<const Pass*>(of))(row, total); };
+  const auto add = [](const void* of, int row, IntegerSums<K>& total) {
+    (*static_cast<const Pass*>(of))(row, total);
+  };
   return sum_of_any_rows<K>(label, rows, {add, &pass});
 }
 #endif
 
-// values(s) returns the LaneAddends<K> of slice s, zero in lanes that do not count (see counted). What it writes on the way makes one
-// fused pass. Waits for the result.
+// values(s) returns the LaneAddends<K> of slice s, zero in lanes that do not count (see counted). What it
+// writes on the way makes one fused pass. Waits for the result.
 template <int K, class Values>
 Addends<K> sum_of_slices(const char* label, int slices, const Values& values) {
   using Pass = SumOfSlices<K, Values>;
-  const IntegerSums<K> total = sum_of_rows<K>(label, (slices + Pass::row - 1) / Pass::row, Pass{values, slices});
+  const IntegerSums<K> total =
+      sum_of_rows<K>(label, (slices + Pass::row - 1) / Pass::row, Pass{values, slices});
   Addends<K> result;
   for (int k = 0; k < K; ++k) result[k] = total.of[k].value();
   return result;
 }
 
-// Likewise of particles 0 ... n - 1: values(me) returns LaneAddends<K> of a slice's particles, or values(i) the Addends<K> of one.
+// Likewise of particles 0 ... n - 1: values(me) returns LaneAddends<K> of a slice's particles, or values(i)
+// the Addends<K> of one.
 template <int K, class Values>
 Addends<K> sum_of_particles(const char* label, int n, const Values& values) {
   if constexpr (std::is_invocable_v<Values, Lanes>)
     return sum_of_slices<K>(label, blocks(n), AddendsTogether<K, Values>{values, n});
-  else
-    return sum_of_slices<K>(label, blocks(n), AddendsApart<K, Values>{values, n});
+  else return sum_of_slices<K>(label, blocks(n), AddendsApart<K, Values>{values, n});
 }
 
 // The sum of values 0 ... n - 1.

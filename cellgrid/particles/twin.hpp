@@ -1,7 +1,8 @@
-// Pair arithmetic in single precision, where registers have the lanes for it (AVX-512) two neighbours at once: the first half of a
-// Twin's lanes then holds a cluster against one neighbour, the second half against another. Positions are subtracted in double before
-// they are rounded, so that a distance has single precision wherever the water lies. On a GPU, or with one lane per cluster, a Twin is
-// a double and holds one neighbour: there only the records are in single precision.
+// Pair arithmetic in single precision, where registers have the lanes for it (AVX-512) two neighbours at
+// once: the first half of a Twin's lanes then holds a cluster against one neighbour, the second half against
+// another. Positions are subtracted in double before they are rounded, so that a distance has single
+// precision wherever the water lies. On a GPU, or with one lane per cluster, a Twin is a double and holds one
+// neighbour: there only the records are in single precision.
 #pragma once
 #include "cellgrid/particles/clusters.hpp"
 #include "cellgrid/simd/distance.hpp"
@@ -51,17 +52,23 @@ KOKKOS_FORCEINLINE_FUNCTION T beside(Single a, [[maybe_unused]] Single b) {
 }
 KOKKOS_FORCEINLINE_FUNCTION Twin twice(Lane a) { return beside(narrow(a), narrow(a)); }
 // The sum, in double, and the larger of the neighbours'.
-KOKKOS_FORCEINLINE_FUNCTION Lane folded(pack<float, 2 * lanes> a) { return widen(first_half(a)) + widen(second_half(a)); }
+KOKKOS_FORCEINLINE_FUNCTION Lane folded(pack<float, 2 * lanes> a) {
+  return widen(first_half(a)) + widen(second_half(a));
+}
 KOKKOS_FORCEINLINE_FUNCTION Lane folded(Single a) { return widen(a); }
-KOKKOS_FORCEINLINE_FUNCTION Lane folded_largest(pack<float, 2 * lanes> a) { return larger(widen(first_half(a)), widen(second_half(a))); }
+KOKKOS_FORCEINLINE_FUNCTION Lane folded_largest(pack<float, 2 * lanes> a) {
+  return larger(widen(first_half(a)), widen(second_half(a)));
+}
 KOKKOS_FORCEINLINE_FUNCTION Lane folded_largest(Single a) { return widen(a); }
 // i - a and i - b
-KOKKOS_FORCEINLINE_FUNCTION Twin apart(Lane i, double a, double b) { return beside(narrow(i - a), narrow(i - b)); }
+KOKKOS_FORCEINLINE_FUNCTION Twin apart(Lane i, double a, double b) {
+  return beside(narrow(i - a), narrow(i - b));
+}
 // 1 where a neighbour counts: the second half only where there are two.
 KOKKOS_FORCEINLINE_FUNCTION Twin kept(bool both) { return beside(Single(1.0f), Single(both ? 1.0f : 0.0f)); }
 
-// The records of two neighbours, number by number: loaded whole, never by way of memory (a wide load of what narrow stores have just
-// left there waits for them). Of one neighbour: each number loaded into all lanes.
+// The records of two neighbours, number by number: loaded whole, never by way of memory (a wide load of what
+// narrow stores have just left there waits for them). Of one neighbour: each number loaded into all lanes.
 template <int N>
 KOKKOS_FORCEINLINE_FUNCTION auto held(const SingleRecord<N>& record) {
   static_assert(N == 4 || N == 2 * lanes, "a quarter of a Twin, or a whole one");
@@ -72,10 +79,12 @@ KOKKOS_FORCEINLINE_FUNCTION auto held(const SingleRecord<N>& record) {
 template <int N>
 class TwinRecord {
  public:
-  KOKKOS_FORCEINLINE_FUNCTION TwinRecord(const SingleRecord<N>& a, const SingleRecord<N>& b) : a_(held(a)), b_(held(b)) {}
+  KOKKOS_FORCEINLINE_FUNCTION TwinRecord(const SingleRecord<N>& a, const SingleRecord<N>& b)
+      : a_(held(a)), b_(held(b)) {}
   template <int k>
   KOKKOS_FORCEINLINE_FUNCTION Twin get() const {
-    if constexpr (neighbours_at_once == 2) return halves_of<k>(a_, b_, std::make_integer_sequence<int, 2 * lanes>{});
+    if constexpr (neighbours_at_once == 2)
+      return halves_of<k>(a_, b_, std::make_integer_sequence<int, 2 * lanes>{});
     else return Twin(a_->value[k]);
   }
 
@@ -84,10 +93,12 @@ class TwinRecord {
 };
 #endif
 
-KOKKOS_FORCEINLINE_FUNCTION Vec<Twin, 1> apart(const Vec<Lane, 1>& i, const VecField<double, 1>& x, int a, int b) {
+KOKKOS_FORCEINLINE_FUNCTION Vec<Twin, 1> apart(const Vec<Lane, 1>& i, const VecField<double, 1>& x, int a,
+                                               int b) {
   return {apart(i.x, x.x(a), x.x(b))};
 }
-KOKKOS_FORCEINLINE_FUNCTION Vec<Twin, 2> apart(const Vec<Lane, 2>& i, const VecField<double, 2>& x, int a, int b) {
+KOKKOS_FORCEINLINE_FUNCTION Vec<Twin, 2> apart(const Vec<Lane, 2>& i, const VecField<double, 2>& x, int a,
+                                               int b) {
   return {apart(i.x, x.x(a), x.x(b)), apart(i.y, x.y(a), x.y(b))};
 }
 struct Twice {
@@ -97,7 +108,8 @@ struct Folded {
   KOKKOS_FORCEINLINE_FUNCTION Lane operator()(const Twin& a) const { return folded(a); }
 };
 
-// A cluster's neighbours two by two: pair(a, b, keep). The last of an odd number comes with itself, keep 0 in the second half.
+// A cluster's neighbours two by two: pair(a, b, keep). The last of an odd number comes with itself, keep 0 in
+// the second half.
 template <class Pair>
 KOKKOS_FORCEINLINE_FUNCTION void for_each_twin(const NeighbourView& near, int cluster, const Pair& pair) {
   const int n = near.length(cluster);

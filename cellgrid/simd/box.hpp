@@ -8,7 +8,9 @@ namespace freshet {
 struct Box {
   double xlo, xhi, ylo, yhi;
 };
-KOKKOS_FORCEINLINE_FUNCTION Box box_of(const Vec<Lane, 1>& x) { return {smallest(x.x), largest(x.x), 0.0, 0.0}; }
+KOKKOS_FORCEINLINE_FUNCTION Box box_of(const Vec<Lane, 1>& x) {
+  return {smallest(x.x), largest(x.x), 0.0, 0.0};
+}
 KOKKOS_FORCEINLINE_FUNCTION Box box_of(const Vec<Lane, 2>& x) {
   return {smallest(x.x), largest(x.x), smallest(x.y), largest(x.y)};
 }

@@ -7,9 +7,9 @@
 
 namespace freshet {
 
-// Added to r^2 so that a particle's pair with itself has a finite 1/r (and no effect, since x_ij = 0). Large enough that
-// rsqrt's intermediate squares stay finite when r^2 is multiplied by small densities squared. In single precision as large as
-// that needs.
+// Added to r^2 so that a particle's pair with itself has a finite 1/r (and no effect, since x_ij = 0). Large
+// enough that rsqrt's intermediate squares stay finite when r^2 is multiplied by small densities squared. In
+// single precision as large as that needs.
 inline constexpr double tiny_square = 1e-200;  // m2
 template <class V>
 inline constexpr double least_square = tiny_square;
@@ -18,9 +18,9 @@ template <int W, int B>
 inline constexpr double least_square<pack<float, W, B>> = 1e-24;  // m2
 #endif
 
-// Whether the set has an estimate of 1/sqrt in double precision: 1/r first, r from it. Where not, a root and a
-// quotient are as fast as a series and leave more room for other work (docs/log/performance.md): r first, and
-// taken ahead, as it takes twenty cycles.
+// Whether the set has an estimate of 1/sqrt in double precision: 1/r first, r from it. Where not, a root and
+// a quotient are as fast as a series and leave more room for other work (docs/log/performance.md): r first,
+// and taken ahead, as it takes twenty cycles.
 template <class V>
 inline constexpr bool estimates_rsqrt = std::is_same_v<V, double>;
 #ifndef FRESHET_DEVICE
@@ -74,10 +74,12 @@ struct NearList {
   KOKKOS_FORCEINLINE_FUNCTION int operator[](int k) const { return j[place ? place[k] : k]; }
 };
 
-// pair(j, apart(j)) for each of them, where roots take long the next one's ahead of this one's pair: two halves of
-// a long chain of operations side by side. (Ahead of a root and a quotient too many numbers wait: slower by a quarter.)
+// pair(j, apart(j)) for each of them, where roots take long the next one's ahead of this one's pair: two
+// halves of a long chain of operations side by side. (Ahead of a root and a quotient too many numbers wait:
+// slower by a quarter.)
 template <class V, class Apart, class Pair>
-KOKKOS_FORCEINLINE_FUNCTION void for_each_distance(const NearList& near, const Apart& apart, const Pair& pair) {
+KOKKOS_FORCEINLINE_FUNCTION void for_each_distance(const NearList& near, const Apart& apart,
+                                                   const Pair& pair) {
   if constexpr (estimates_rsqrt<V>) {
     for (int k = 0; k < near.n; ++k) pair(near.j[k], apart(near.j[k]));
   } else if (near.n > 0) {

@@ -1,5 +1,6 @@
-// Lane: the value type of the pair loops. A pair body written for a value type V runs with V = pack<double, 8> on a CPU and with
-// V = double on a GPU or as the scalar reference, for which the words of pack.hpp are here too.
+// Lane: the value type of the pair loops. A pair body written for a value type V runs with V = pack<double,
+// 8> on a CPU and with V = double on a GPU or as the scalar reference, for which the words of pack.hpp are
+// here too.
 #pragma once
 #include "cellgrid/simd/pack.hpp"
 
@@ -39,7 +40,8 @@ KOKKOS_FORCEINLINE_FUNCTION void store(T* to, const V& value) {
   }
 }
 
-// ---- The same words for plain scalars -----------------------------------------------------------------------------------------
+// ---- The same words for plain scalars
+// -----------------------------------------------------------------------------------------
 KOKKOS_FORCEINLINE_FUNCTION bool any(bool m) { return m; }
 KOKKOS_FORCEINLINE_FUNCTION int count(bool m) { return m; }
 KOKKOS_FORCEINLINE_FUNCTION double select(bool m, double a, double b) { return m ? a : b; }
@@ -78,7 +80,8 @@ KOKKOS_FORCEINLINE_FUNCTION V clamp(V value, V low, V high) {
   return smaller(larger(value, low), high);
 }
 
-// ---- Lanes: those of a cluster ------------------------------------------------------------------------------------------------
+// ---- Lanes: those of a cluster
+// ------------------------------------------------------------------------------------------------
 #ifdef FRESHET_ONE_LANE
 inline constexpr int lanes = 1;
 using Lane = double;
@@ -101,19 +104,23 @@ template <class V, class Value>
 KOKKOS_FORCEINLINE_FUNCTION V lanes_of(const Value& value) {
   return V::of(value);
 }
-KOKKOS_FORCEINLINE_FUNCTION Lane::Mask first_lanes(int n) { return Lane::of([](int lane) { return lane; }) < Lane(n); }
+KOKKOS_FORCEINLINE_FUNCTION Lane::Mask first_lanes(int n) {
+  return Lane::of([](int lane) { return lane; }) < Lane(n);
+}
 #endif
 
-// ---- Pair loops register by register ------------------------------------------------------------------------------------------
-// A cluster has two parts, the halves of its lanes, where these fill several registers.
+// ---- Pair loops register by register
+// ------------------------------------------------------------------------------------------ A cluster has
+// two parts, the halves of its lanes, where these fill several registers.
 #ifdef FRESHET_ONE_LANE
 inline constexpr int parts_of_cluster = 1;
 #else
 inline constexpr int parts_of_cluster = Lane::one_register ? 1 : 2;
 #endif
 
-// loop(a, part) of values a of type V (a pack, a Vec of packs, a struct with an each() of its own), one register of their lanes after
-// the other: a body that fills the registers twice over would be spilt in every pair. What the loop returns is put together again.
+// loop(a, part) of values a of type V (a pack, a Vec of packs, a struct with an each() of its own), one
+// register of their lanes after the other: a body that fills the registers twice over would be spilt in every
+// pair. What the loop returns is put together again.
 #ifdef FRESHET_DEVICE
 template <class V, class Values, class Loop>
 KOKKOS_FORCEINLINE_FUNCTION auto by_register(const Values& a, const Loop& loop) {
@@ -122,15 +129,21 @@ KOKKOS_FORCEINLINE_FUNCTION auto by_register(const Values& a, const Loop& loop) 
 #else
 struct FirstHalf {
   template <class P>
-  KOKKOS_FORCEINLINE_FUNCTION auto operator()(const P& a) const { return first_half(a); }
+  KOKKOS_FORCEINLINE_FUNCTION auto operator()(const P& a) const {
+    return first_half(a);
+  }
 };
 struct SecondHalf {
   template <class P>
-  KOKKOS_FORCEINLINE_FUNCTION auto operator()(const P& a) const { return second_half(a); }
+  KOKKOS_FORCEINLINE_FUNCTION auto operator()(const P& a) const {
+    return second_half(a);
+  }
 };
 struct Join {
   template <class P>
-  KOKKOS_FORCEINLINE_FUNCTION auto operator()(const P& a, const P& b) const { return join(a, b); }
+  KOKKOS_FORCEINLINE_FUNCTION auto operator()(const P& a, const P& b) const {
+    return join(a, b);
+  }
 };
 template <class V, class Values, class Loop>
 KOKKOS_FORCEINLINE_FUNCTION auto by_register(const Values& a, const Loop& loop) {

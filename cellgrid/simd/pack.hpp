@@ -1,23 +1,30 @@
-// pack<T, W>: W values computed in step, in as many of the processor's registers as they need (eight doubles: one with AVX-512,
-// two with AVX2, four with SSE and NEON). Every object that passes packs must be compiled with the same instruction-set flags.
+// pack<T, W>: W values computed in step, in as many of the processor's registers as they need (eight doubles:
+// one with AVX-512, two with AVX2, four with SSE and NEON). Every object that passes packs must be compiled
+// with the same instruction-set flags.
 #pragma once
 #include "cellgrid/simd/registers.hpp"
 
 #ifndef FRESHET_DEVICE
 namespace freshet {
 
-// ---- Packs of one register ----------------------------------------------------------------------------------------------------
-// B: bytes of a register; tests ask for other ones than the machine's.
+// ---- Packs of one register
+// ---------------------------------------------------------------------------------------------------- B:
+// bytes of a register; tests ask for other ones than the machine's.
 template <class T, int W, int B = register_bytes, bool one = (W * sizeof(T) <= B)>
 struct pack;
 
 // The lanes' truth values.
 template <class P, bool one = P::one_register>
 struct LaneMask {
-  using Bits = decltype(registers::less(std::declval<typename P::Vector>(), std::declval<typename P::Vector>()));
+  using Bits =
+      decltype(registers::less(std::declval<typename P::Vector>(), std::declval<typename P::Vector>()));
   Bits bits;
-  friend KOKKOS_FORCEINLINE_FUNCTION LaneMask operator&(LaneMask a, LaneMask b) { return {static_cast<Bits>(a.bits & b.bits)}; }
-  friend KOKKOS_FORCEINLINE_FUNCTION LaneMask operator|(LaneMask a, LaneMask b) { return {static_cast<Bits>(a.bits | b.bits)}; }
+  friend KOKKOS_FORCEINLINE_FUNCTION LaneMask operator&(LaneMask a, LaneMask b) {
+    return {static_cast<Bits>(a.bits & b.bits)};
+  }
+  friend KOKKOS_FORCEINLINE_FUNCTION LaneMask operator|(LaneMask a, LaneMask b) {
+    return {static_cast<Bits>(a.bits | b.bits)};
+  }
   friend KOKKOS_FORCEINLINE_FUNCTION LaneMask operator!(LaneMask a) { return {static_cast<Bits>(~a.bits)}; }
   friend KOKKOS_FORCEINLINE_FUNCTION bool any(LaneMask m) { return registers::any(m.bits); }
   friend KOKKOS_FORCEINLINE_FUNCTION int count(LaneMask m) { return registers::count(m.bits); }
@@ -31,7 +38,8 @@ struct pack<T, W, B, true> {
   Vector v;
 
   pack() = default;
-  KOKKOS_FORCEINLINE_FUNCTION pack(T scalar) : v(scalar - Vector{}) {}  // implicit: bodies read alike for scalars and packs
+  KOKKOS_FORCEINLINE_FUNCTION pack(T scalar)
+      : v(scalar - Vector{}) {}  // implicit: bodies read alike for scalars and packs
   explicit KOKKOS_FORCEINLINE_FUNCTION pack(Vector vector) : v(vector) {}
   // value(lane) in each lane, put together in registers; use(lane, value) of each.
   template <class Value>
@@ -55,18 +63,28 @@ struct pack<T, W, B, true> {
   friend KOKKOS_FORCEINLINE_FUNCTION pack operator/(pack a, pack b) { return pack(a.v / b.v); }
   friend KOKKOS_FORCEINLINE_FUNCTION pack operator-(pack a) { return pack(-a.v); }
   friend KOKKOS_FORCEINLINE_FUNCTION Mask operator<(pack a, pack b) { return {registers::less(a.v, b.v)}; }
-  friend KOKKOS_FORCEINLINE_FUNCTION pack select(Mask m, pack a, pack b) { return pack(registers::select(m.bits, a.v, b.v)); }
-  friend KOKKOS_FORCEINLINE_FUNCTION pack smaller(pack a, pack b) { return pack(registers::smaller(a.v, b.v)); }
+  friend KOKKOS_FORCEINLINE_FUNCTION pack select(Mask m, pack a, pack b) {
+    return pack(registers::select(m.bits, a.v, b.v));
+  }
+  friend KOKKOS_FORCEINLINE_FUNCTION pack smaller(pack a, pack b) {
+    return pack(registers::smaller(a.v, b.v));
+  }
   friend KOKKOS_FORCEINLINE_FUNCTION pack larger(pack a, pack b) { return pack(registers::larger(a.v, b.v)); }
   friend KOKKOS_FORCEINLINE_FUNCTION pack larger_where(Mask m, pack a, pack b) {
     return pack(registers::larger_where(m.bits, a.v, b.v));
   }
-  friend KOKKOS_FORCEINLINE_FUNCTION pack turned_by(pack a, pack b) { return pack(registers::turned_by(a.v, b.v)); }
+  friend KOKKOS_FORCEINLINE_FUNCTION pack turned_by(pack a, pack b) {
+    return pack(registers::turned_by(a.v, b.v));
+  }
   friend KOKKOS_FORCEINLINE_FUNCTION pack size_of(pack a) { return pack(registers::size_of(a.v)); }
   friend KOKKOS_FORCEINLINE_FUNCTION pack root(pack a) { return pack(registers::root(a.v)); }
   friend KOKKOS_FORCEINLINE_FUNCTION pack rsqrt(pack a) { return pack(registers::rsqrt(a.v)); }
-  friend KOKKOS_FORCEINLINE_FUNCTION pack bits_as_number(pack a) { return pack(registers::bits_as_number(a.v)); }
-  friend KOKKOS_FORCEINLINE_FUNCTION pack number_as_bits(pack a) { return pack(registers::number_as_bits(a.v)); }
+  friend KOKKOS_FORCEINLINE_FUNCTION pack bits_as_number(pack a) {
+    return pack(registers::bits_as_number(a.v));
+  }
+  friend KOKKOS_FORCEINLINE_FUNCTION pack number_as_bits(pack a) {
+    return pack(registers::number_as_bits(a.v));
+  }
   friend KOKKOS_FORCEINLINE_FUNCTION pack rounded(pack a) { return pack(registers::rounded(a.v)); }
 
  private:
@@ -80,12 +98,17 @@ struct pack<T, W, B, true> {
   }
 };
 
-// ---- Packs in two halves ----------------------------------------------------------------------------------------------------
+// ---- Packs in two halves
+// ----------------------------------------------------------------------------------------------------
 template <class P>
 struct LaneMask<P, false> {
   LaneMask<typename P::Half> low, high;
-  friend KOKKOS_FORCEINLINE_FUNCTION LaneMask operator&(LaneMask a, LaneMask b) { return {a.low & b.low, a.high & b.high}; }
-  friend KOKKOS_FORCEINLINE_FUNCTION LaneMask operator|(LaneMask a, LaneMask b) { return {a.low | b.low, a.high | b.high}; }
+  friend KOKKOS_FORCEINLINE_FUNCTION LaneMask operator&(LaneMask a, LaneMask b) {
+    return {a.low & b.low, a.high & b.high};
+  }
+  friend KOKKOS_FORCEINLINE_FUNCTION LaneMask operator|(LaneMask a, LaneMask b) {
+    return {a.low | b.low, a.high | b.high};
+  }
   friend KOKKOS_FORCEINLINE_FUNCTION LaneMask operator!(LaneMask a) { return {!a.low, !a.high}; }
   friend KOKKOS_FORCEINLINE_FUNCTION bool any(LaneMask m) { return any(m.low | m.high); }
   friend KOKKOS_FORCEINLINE_FUNCTION int count(LaneMask m) { return count(m.low) + count(m.high); }
@@ -106,7 +129,9 @@ struct pack<T, W, B, false> {
     return {Half::of(value), Half::of([&](int lane) { return value(W / 2 + lane); })};
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION T operator[](int lane) const { return lane < W / 2 ? low[lane] : high[lane - W / 2]; }
+  KOKKOS_FORCEINLINE_FUNCTION T operator[](int lane) const {
+    return lane < W / 2 ? low[lane] : high[lane - W / 2];
+  }
   KOKKOS_FORCEINLINE_FUNCTION void set(int lane, T value) {
     if (lane < W / 2) low.set(lane, value);
     else high.set(lane - W / 2, value);
@@ -115,31 +140,52 @@ struct pack<T, W, B, false> {
   KOKKOS_FORCEINLINE_FUNCTION pack& operator+=(pack b) { return *this = *this + b; }
   KOKKOS_FORCEINLINE_FUNCTION pack& operator-=(pack b) { return *this = *this - b; }
   KOKKOS_FORCEINLINE_FUNCTION pack& operator*=(pack b) { return *this = *this * b; }
-  friend KOKKOS_FORCEINLINE_FUNCTION pack operator+(pack a, pack b) { return {a.low + b.low, a.high + b.high}; }
-  friend KOKKOS_FORCEINLINE_FUNCTION pack operator-(pack a, pack b) { return {a.low - b.low, a.high - b.high}; }
-  friend KOKKOS_FORCEINLINE_FUNCTION pack operator*(pack a, pack b) { return {a.low * b.low, a.high * b.high}; }
-  friend KOKKOS_FORCEINLINE_FUNCTION pack operator/(pack a, pack b) { return {a.low / b.low, a.high / b.high}; }
+  friend KOKKOS_FORCEINLINE_FUNCTION pack operator+(pack a, pack b) {
+    return {a.low + b.low, a.high + b.high};
+  }
+  friend KOKKOS_FORCEINLINE_FUNCTION pack operator-(pack a, pack b) {
+    return {a.low - b.low, a.high - b.high};
+  }
+  friend KOKKOS_FORCEINLINE_FUNCTION pack operator*(pack a, pack b) {
+    return {a.low * b.low, a.high * b.high};
+  }
+  friend KOKKOS_FORCEINLINE_FUNCTION pack operator/(pack a, pack b) {
+    return {a.low / b.low, a.high / b.high};
+  }
   friend KOKKOS_FORCEINLINE_FUNCTION pack operator-(pack a) { return {-a.low, -a.high}; }
-  friend KOKKOS_FORCEINLINE_FUNCTION Mask operator<(pack a, pack b) { return {a.low < b.low, a.high < b.high}; }
+  friend KOKKOS_FORCEINLINE_FUNCTION Mask operator<(pack a, pack b) {
+    return {a.low < b.low, a.high < b.high};
+  }
   friend KOKKOS_FORCEINLINE_FUNCTION pack select(Mask m, pack a, pack b) {
     return {select(m.low, a.low, b.low), select(m.high, a.high, b.high)};
   }
-  friend KOKKOS_FORCEINLINE_FUNCTION pack smaller(pack a, pack b) { return {smaller(a.low, b.low), smaller(a.high, b.high)}; }
-  friend KOKKOS_FORCEINLINE_FUNCTION pack larger(pack a, pack b) { return {larger(a.low, b.low), larger(a.high, b.high)}; }
+  friend KOKKOS_FORCEINLINE_FUNCTION pack smaller(pack a, pack b) {
+    return {smaller(a.low, b.low), smaller(a.high, b.high)};
+  }
+  friend KOKKOS_FORCEINLINE_FUNCTION pack larger(pack a, pack b) {
+    return {larger(a.low, b.low), larger(a.high, b.high)};
+  }
   friend KOKKOS_FORCEINLINE_FUNCTION pack larger_where(Mask m, pack a, pack b) {
     return {larger_where(m.low, a.low, b.low), larger_where(m.high, a.high, b.high)};
   }
-  friend KOKKOS_FORCEINLINE_FUNCTION pack turned_by(pack a, pack b) { return {turned_by(a.low, b.low), turned_by(a.high, b.high)}; }
+  friend KOKKOS_FORCEINLINE_FUNCTION pack turned_by(pack a, pack b) {
+    return {turned_by(a.low, b.low), turned_by(a.high, b.high)};
+  }
   friend KOKKOS_FORCEINLINE_FUNCTION pack size_of(pack a) { return {size_of(a.low), size_of(a.high)}; }
   friend KOKKOS_FORCEINLINE_FUNCTION pack root(pack a) { return {root(a.low), root(a.high)}; }
   friend KOKKOS_FORCEINLINE_FUNCTION pack rsqrt(pack a) { return {rsqrt(a.low), rsqrt(a.high)}; }
-  friend KOKKOS_FORCEINLINE_FUNCTION pack bits_as_number(pack a) { return {bits_as_number(a.low), bits_as_number(a.high)}; }
-  friend KOKKOS_FORCEINLINE_FUNCTION pack number_as_bits(pack a) { return {number_as_bits(a.low), number_as_bits(a.high)}; }
+  friend KOKKOS_FORCEINLINE_FUNCTION pack bits_as_number(pack a) {
+    return {bits_as_number(a.low), bits_as_number(a.high)};
+  }
+  friend KOKKOS_FORCEINLINE_FUNCTION pack number_as_bits(pack a) {
+    return {number_as_bits(a.low), number_as_bits(a.high)};
+  }
   friend KOKKOS_FORCEINLINE_FUNCTION pack rounded(pack a) { return {rounded(a.low), rounded(a.high)}; }
 };
 
-// ---- Words that change the number or the kind of lanes ----------------------------------------------------------------------
-// Some lanes of a and b, b's counted after a's.
+// ---- Words that change the number or the kind of lanes
+// ---------------------------------------------------------------------- Some lanes of a and b, b's counted
+// after a's.
 template <int first, class To, class From, int... l>
 KOKKOS_FORCEINLINE_FUNCTION To picked(From a, From b, std::integer_sequence<int, l...>) {
   return To(__builtin_shufflevector(a.v, b.v, (first + l)...));
@@ -148,22 +194,19 @@ template <class T, int W, int B>
 KOKKOS_FORCEINLINE_FUNCTION pack<T, W / 2, B> first_half(pack<T, W, B> a) {
   if constexpr (pack<T, W, B>::one_register)
     return picked<0, pack<T, W / 2, B>>(a, a, std::make_integer_sequence<int, W / 2>{});
-  else
-    return a.low;
+  else return a.low;
 }
 template <class T, int W, int B>
 KOKKOS_FORCEINLINE_FUNCTION pack<T, W / 2, B> second_half(pack<T, W, B> a) {
   if constexpr (pack<T, W, B>::one_register)
     return picked<W / 2, pack<T, W / 2, B>>(a, a, std::make_integer_sequence<int, W / 2>{});
-  else
-    return a.high;
+  else return a.high;
 }
 template <class T, int W, int B>
 KOKKOS_FORCEINLINE_FUNCTION pack<T, 2 * W, B> join(pack<T, W, B> a, pack<T, W, B> b) {
   if constexpr (pack<T, 2 * W, B>::one_register)
     return picked<0, pack<T, 2 * W, B>>(a, b, std::make_integer_sequence<int, 2 * W>{});
-  else
-    return {a, b};
+  else return {a, b};
 }
 // Lane k of a in the first half of the lanes, lane k of b in the second; one register each.
 template <int k, class P, int... l>
@@ -183,8 +226,7 @@ template <class To, class T, int W, int B>
 KOKKOS_FORCEINLINE_FUNCTION pack<To, W, B> convert(pack<T, W, B> a) {
   if constexpr (pack<T, W, B>::one_register && pack<To, W, B>::one_register)
     return pack<To, W, B>(registers::convert<To>(a.v));
-  else
-    return join(convert<To>(first_half(a)), convert<To>(second_half(a)));
+  else return join(convert<To>(first_half(a)), convert<To>(second_half(a)));
 }
 template <int W, int B>
 KOKKOS_FORCEINLINE_FUNCTION pack<int, W, B> to_index(pack<double, W, B> a) {
@@ -198,22 +240,20 @@ template <int W, int B>
 KOKKOS_FORCEINLINE_FUNCTION pack<double, W, B> gather(const double* table, pack<int, W, B> index) {
   if constexpr (pack<double, W, B>::one_register)
     return pack<double, W, B>(registers::gather<registers::Vector<double, W>>(table, index.v));
-  else
-    return pack<double, W, B>::of([&](int lane) { return table[index[lane]]; });
+  else return pack<double, W, B>::of([&](int lane) { return table[index[lane]]; });
 }
 
 template <class T, int W, int B>
 KOKKOS_FORCEINLINE_FUNCTION T largest(pack<T, W, B> a) {
-  if constexpr (W == 2)
-    return larger(a[0], a[1]);
-  else
-    return largest(larger(first_half(a), second_half(a)));
+  if constexpr (W == 2) return larger(a[0], a[1]);
+  else return largest(larger(first_half(a), second_half(a)));
 }
 template <class T, int W, int B>
 KOKKOS_FORCEINLINE_FUNCTION T smallest(pack<T, W, B> a) {
   return -largest(-a);
 }
-// A third of the exponent, taken on the bits read as a number (at most 8.2 % off), then Newton's method, which squares the error.
+// A third of the exponent, taken on the bits read as a number (at most 8.2 % off), then Newton's method,
+// which squares the error.
 template <int W, int B>
 KOKKOS_FORCEINLINE_FUNCTION pack<double, W, B> inverse_cbrt(pack<double, W, B> a) {
   constexpr double zero_exponent = 1023.0 * 4503599627370496.0;  // the bits of 1.0

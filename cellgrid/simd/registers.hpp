@@ -1,5 +1,5 @@
-// One register of the processor by name: what it is called, how wide it is, and what is done with one. The one file that knows
-// instruction sets; packs (pack.hpp) are made of these.
+// One register of the processor by name: what it is called, how wide it is, and what is done with one. The
+// one file that knows instruction sets; packs (pack.hpp) are made of these.
 #pragma once
 #include <cmath>
 #include <type_traits>
@@ -50,7 +50,8 @@ inline const char* machine_instruction_set() {
 #endif
 }
 
-// ---- Words on one register: g++ makes single instructions of most; what it does not is written out beneath ---------------
+// ---- Words on one register: g++ makes single instructions of most; what it does not is written out beneath
+// ---------------
 namespace registers {
 
 template <class T, int W>
@@ -90,11 +91,15 @@ KOKKOS_FORCEINLINE_FUNCTION V larger(V a, V b) {
 }
 #ifdef __x86_64__  // of a maximum with zero g++ makes a comparison and a bitwise and
 using Doubles2 = Vector<double, 2>;
-KOKKOS_FORCEINLINE_FUNCTION Doubles2 larger(Doubles2 a, Doubles2 b) { return (Doubles2)_mm_max_pd((__m128d)a, (__m128d)b); }
+KOKKOS_FORCEINLINE_FUNCTION Doubles2 larger(Doubles2 a, Doubles2 b) {
+  return (Doubles2)_mm_max_pd((__m128d)a, (__m128d)b);
+}
 #endif
 #ifdef __AVX__
 using Doubles4 = Vector<double, 4>;
-KOKKOS_FORCEINLINE_FUNCTION Doubles4 larger(Doubles4 a, Doubles4 b) { return (Doubles4)_mm256_max_pd((__m256d)a, (__m256d)b); }
+KOKKOS_FORCEINLINE_FUNCTION Doubles4 larger(Doubles4 a, Doubles4 b) {
+  return (Doubles4)_mm256_max_pd((__m256d)a, (__m256d)b);
+}
 #endif
 template <class M, class V>
 KOKKOS_FORCEINLINE_FUNCTION V larger_where(M m, V a, V b) {
@@ -110,7 +115,8 @@ KOKKOS_FORCEINLINE_FUNCTION V size_of(V a) {
 }
 template <class V>
 KOKKOS_FORCEINLINE_FUNCTION V root(V a) {
-  for (int l = 0; l < width<V>; ++l) a[l] = sizeof(Element<V>) == 8 ? __builtin_sqrt(a[l]) : __builtin_sqrtf(a[l]);
+  for (int l = 0; l < width<V>; ++l)
+    a[l] = sizeof(Element<V>) == 8 ? __builtin_sqrt(a[l]) : __builtin_sqrtf(a[l]);
   return a;
 }
 template <class V>
@@ -121,7 +127,8 @@ template <class To, class V>
 KOKKOS_FORCEINLINE_FUNCTION auto convert(V a) {
   return __builtin_convertvector(a, Vector<To, width<V>>);
 }
-// The bits of a positive double read as a number, and back; without the last twenty of them, which leaves 2^-32 of the value.
+// The bits of a positive double read as a number, and back; without the last twenty of them, which leaves
+// 2^-32 of the value.
 template <class V>
 KOKKOS_FORCEINLINE_FUNCTION V bits_as_number(V a) {
   const V two52 = V{} + 0x1p52;
@@ -140,11 +147,15 @@ KOKKOS_FORCEINLINE_FUNCTION unsigned signs(M m) {
 }
 #ifdef __x86_64__
 using Truths2 = decltype(Vector<double, 2>{} < Vector<double, 2>{});
-KOKKOS_FORCEINLINE_FUNCTION unsigned signs(Truths2 m) { return static_cast<unsigned>(_mm_movemask_pd((__m128d)m)); }
+KOKKOS_FORCEINLINE_FUNCTION unsigned signs(Truths2 m) {
+  return static_cast<unsigned>(_mm_movemask_pd((__m128d)m));
+}
 #endif
 #ifdef __AVX__
 using Truths4 = decltype(Vector<double, 4>{} < Vector<double, 4>{});
-KOKKOS_FORCEINLINE_FUNCTION unsigned signs(Truths4 m) { return static_cast<unsigned>(_mm256_movemask_pd((__m256d)m)); }
+KOKKOS_FORCEINLINE_FUNCTION unsigned signs(Truths4 m) {
+  return static_cast<unsigned>(_mm256_movemask_pd((__m256d)m));
+}
 #endif
 template <class M>
 KOKKOS_FORCEINLINE_FUNCTION int count(M m) {
@@ -179,8 +190,12 @@ using Doubles = Vector<double, 8>;
 using Floats = Vector<float, 16>;
 inline constexpr __mmask8 all8 = 0xff;
 inline constexpr __mmask16 all16 = 0xffff;
-KOKKOS_FORCEINLINE_FUNCTION __mmask8 less(Doubles a, Doubles b) { return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LT_OQ); }
-KOKKOS_FORCEINLINE_FUNCTION __mmask16 less(Floats a, Floats b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ); }
+KOKKOS_FORCEINLINE_FUNCTION __mmask8 less(Doubles a, Doubles b) {
+  return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LT_OQ);
+}
+KOKKOS_FORCEINLINE_FUNCTION __mmask16 less(Floats a, Floats b) {
+  return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ);
+}
 KOKKOS_FORCEINLINE_FUNCTION Doubles select(__mmask8 m, Doubles a, Doubles b) {
   return (Doubles)_mm512_mask_blend_pd(m, (__m512d)b, (__m512d)a);
 }
@@ -190,11 +205,15 @@ KOKKOS_FORCEINLINE_FUNCTION Floats select(__mmask16 m, Floats a, Floats b) {
 KOKKOS_FORCEINLINE_FUNCTION Doubles smaller(Doubles a, Doubles b) {
   return (Doubles)_mm512_maskz_min_pd(all8, (__m512d)a, (__m512d)b);
 }
-KOKKOS_FORCEINLINE_FUNCTION Floats smaller(Floats a, Floats b) { return (Floats)_mm512_maskz_min_ps(all16, (__m512)a, (__m512)b); }
+KOKKOS_FORCEINLINE_FUNCTION Floats smaller(Floats a, Floats b) {
+  return (Floats)_mm512_maskz_min_ps(all16, (__m512)a, (__m512)b);
+}
 KOKKOS_FORCEINLINE_FUNCTION Doubles larger(Doubles a, Doubles b) {
   return (Doubles)_mm512_maskz_max_pd(all8, (__m512d)a, (__m512d)b);
 }
-KOKKOS_FORCEINLINE_FUNCTION Floats larger(Floats a, Floats b) { return (Floats)_mm512_maskz_max_ps(all16, (__m512)a, (__m512)b); }
+KOKKOS_FORCEINLINE_FUNCTION Floats larger(Floats a, Floats b) {
+  return (Floats)_mm512_maskz_max_ps(all16, (__m512)a, (__m512)b);
+}
 KOKKOS_FORCEINLINE_FUNCTION Doubles larger_where(__mmask8 m, Doubles a, Doubles b) {
   return (Doubles)_mm512_mask_max_pd((__m512d)a, m, (__m512d)a, (__m512d)b);
 }
@@ -203,12 +222,16 @@ KOKKOS_FORCEINLINE_FUNCTION Floats larger_where(__mmask16 m, Floats a, Floats b)
 }
 // One instruction on the bits (0x78: a ^ (b & c)).
 KOKKOS_FORCEINLINE_FUNCTION Doubles turned_by(Doubles a, Doubles b) {
-  return (Doubles)_mm512_ternarylogic_epi64((__m512i)a, (__m512i)b, _mm512_set1_epi64(static_cast<long long>(1ull << 63)), 0x78);
+  return (Doubles)_mm512_ternarylogic_epi64((__m512i)a, (__m512i)b,
+                                            _mm512_set1_epi64(static_cast<long long>(1ull << 63)), 0x78);
 }
 KOKKOS_FORCEINLINE_FUNCTION Floats turned_by(Floats a, Floats b) {
-  return (Floats)_mm512_ternarylogic_epi32((__m512i)a, (__m512i)b, _mm512_set1_epi32(static_cast<int>(1u << 31)), 0x78);
+  return (Floats)_mm512_ternarylogic_epi32((__m512i)a, (__m512i)b,
+                                           _mm512_set1_epi32(static_cast<int>(1u << 31)), 0x78);
 }
-KOKKOS_FORCEINLINE_FUNCTION Doubles root(Doubles a) { return (Doubles)_mm512_maskz_sqrt_pd(all8, (__m512d)a); }
+KOKKOS_FORCEINLINE_FUNCTION Doubles root(Doubles a) {
+  return (Doubles)_mm512_maskz_sqrt_pd(all8, (__m512d)a);
+}
 KOKKOS_FORCEINLINE_FUNCTION Floats root(Floats a) { return (Floats)_mm512_maskz_sqrt_ps(all16, (__m512)a); }
 // 14-bit estimates; the terms up to e^2 leave 5.7e-13, those up to e leave single precision.
 KOKKOS_FORCEINLINE_FUNCTION Doubles rsqrt(Doubles a) {
@@ -219,8 +242,12 @@ KOKKOS_FORCEINLINE_FUNCTION Floats rsqrt(Floats a) {
   const Floats y = (Floats)_mm512_maskz_rsqrt14_ps(all16, (__m512)a);
   return y * (1.5f - 0.5f * a * y * y);
 }
-KOKKOS_FORCEINLINE_FUNCTION Doubles bits_as_number(Doubles a) { return __builtin_convertvector((Vector<long long, 8>)a, Doubles); }
-KOKKOS_FORCEINLINE_FUNCTION Doubles number_as_bits(Doubles a) { return (Doubles)__builtin_convertvector(a, Vector<long long, 8>); }
+KOKKOS_FORCEINLINE_FUNCTION Doubles bits_as_number(Doubles a) {
+  return __builtin_convertvector((Vector<long long, 8>)a, Doubles);
+}
+KOKKOS_FORCEINLINE_FUNCTION Doubles number_as_bits(Doubles a) {
+  return (Doubles) __builtin_convertvector(a, Vector<long long, 8>);
+}
 KOKKOS_FORCEINLINE_FUNCTION bool any(__mmask8 m) { return m != 0; }
 KOKKOS_FORCEINLINE_FUNCTION bool any(__mmask16 m) { return m != 0; }
 KOKKOS_FORCEINLINE_FUNCTION int count(__mmask8 m) { return __builtin_popcount(m); }

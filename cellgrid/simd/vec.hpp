@@ -22,8 +22,12 @@ template <class V>
 struct Vec<V, 2> {
   V x{0.0}, y{0.0};
   KOKKOS_FORCEINLINE_FUNCTION Vec& operator+=(const Vec& b) { return x += b.x, y += b.y, *this; }
-  friend KOKKOS_FORCEINLINE_FUNCTION Vec operator+(const Vec& a, const Vec& b) { return {a.x + b.x, a.y + b.y}; }
-  friend KOKKOS_FORCEINLINE_FUNCTION Vec operator-(const Vec& a, const Vec& b) { return {a.x - b.x, a.y - b.y}; }
+  friend KOKKOS_FORCEINLINE_FUNCTION Vec operator+(const Vec& a, const Vec& b) {
+    return {a.x + b.x, a.y + b.y};
+  }
+  friend KOKKOS_FORCEINLINE_FUNCTION Vec operator-(const Vec& a, const Vec& b) {
+    return {a.x - b.x, a.y - b.y};
+  }
   friend KOKKOS_FORCEINLINE_FUNCTION Vec operator*(const V& s, const Vec& a) { return {s * a.x, s * a.y}; }
 };
 
@@ -31,9 +35,15 @@ template <class V>
 struct Vec<V, 3> {
   V x{0.0}, y{0.0}, z{0.0};
   KOKKOS_FORCEINLINE_FUNCTION Vec& operator+=(const Vec& b) { return x += b.x, y += b.y, z += b.z, *this; }
-  friend KOKKOS_FORCEINLINE_FUNCTION Vec operator+(const Vec& a, const Vec& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-  friend KOKKOS_FORCEINLINE_FUNCTION Vec operator-(const Vec& a, const Vec& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-  friend KOKKOS_FORCEINLINE_FUNCTION Vec operator*(const V& s, const Vec& a) { return {s * a.x, s * a.y, s * a.z}; }
+  friend KOKKOS_FORCEINLINE_FUNCTION Vec operator+(const Vec& a, const Vec& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+  }
+  friend KOKKOS_FORCEINLINE_FUNCTION Vec operator-(const Vec& a, const Vec& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+  }
+  friend KOKKOS_FORCEINLINE_FUNCTION Vec operator*(const V& s, const Vec& a) {
+    return {s * a.x, s * a.y, s * a.z};
+  }
 };
 
 // x and, in 2-D, y.
@@ -85,7 +95,9 @@ struct Sym<V, 1> {
 template <class V>
 struct Sym<V, 2> {
   V xx{0.0}, xy{0.0}, yy{0.0};
-  KOKKOS_FORCEINLINE_FUNCTION Sym& operator+=(const Sym& b) { return xx += b.xx, xy += b.xy, yy += b.yy, *this; }
+  KOKKOS_FORCEINLINE_FUNCTION Sym& operator+=(const Sym& b) {
+    return xx += b.xx, xy += b.xy, yy += b.yy, *this;
+  }
 };
 
 template <class F, class... V>

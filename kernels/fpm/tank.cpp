@@ -35,7 +35,8 @@ std::vector<WallStart> Tank::lay_points(double spacing) const {
     for (int i = s.before < 0 ? 0 : 1; i <= parts; ++i) {
       const double along = s.length * i / parts;
       const bool corner = i == parts && s.corner_b;
-      points.push_back({{s.a.x + along * s.tangent.x, s.a.y + along * s.tangent.y}, corner ? in_corner : on_wall, k});
+      points.push_back(
+          {{s.a.x + along * s.tangent.x, s.a.y + along * s.tangent.y}, corner ? in_corner : on_wall, k});
     }
   }
   return points;

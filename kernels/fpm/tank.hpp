@@ -1,6 +1,7 @@
-// The walls of an incompressible flow: straight sides along polylines, the water on their left, and the corners between them.
-// Points on walls slide along their side; corners that turn towards the water by more than 10 degrees hold a fixed point.
-// Of corners that turn away from it (more than 180 degrees of water) no point is kept: points slide round them.
+// The walls of an incompressible flow: straight sides along polylines, the water on their left, and the
+// corners between them. Points on walls slide along their side; corners that turn towards the water by more
+// than 10 degrees hold a fixed point. Of corners that turn away from it (more than 180 degrees of water) no
+// point is kept: points slide round them.
 #pragma once
 #include "kernels/boundaries/walls/piece_bins.hpp"
 
@@ -30,8 +31,8 @@ struct TankView {
     return s.a + along * s.tangent;
   }
 
-  // Whether the half-plane before the side bounds what p sees: p is before the side or, where the water fills less than 180
-  // degrees, beside it.
+  // Whether the half-plane before the side bounds what p sees: p is before the side or, where the water fills
+  // less than 180 degrees, beside it.
   static KOKKOS_FORCEINLINE_FUNCTION bool bounds(const Side& s, const Foot<double>& f, double reach) {
     const double slack = 1e-9 * s.length;
     const double from = s.round_a ? -slack : -reach, to = s.length + (s.round_b ? slack : reach);

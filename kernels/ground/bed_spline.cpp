@@ -16,8 +16,8 @@ struct Line {
   double& operator[](int k) const { return v[static_cast<size_t>(std::clamp(k, 0, n - 1)) * stride]; }
 };
 
-// Smoothing by (a, 1 - 2a, a) passes with the given variance in units of the spacing squared; at most 1/3 per pass, the
-// variance of the B-spline itself. The rim is continued linearly.
+// Smoothing by (a, 1 - 2a, a) passes with the given variance in units of the spacing squared; at most 1/3 per
+// pass, the variance of the B-spline itself. The rim is continued linearly.
 void smooth(const Line& line, double variance) {
   const int passes = static_cast<int>(std::ceil(3 * variance));
   if (passes == 0) return;
@@ -29,8 +29,8 @@ void smooth(const Line& line, double variance) {
   }
 }
 
-// Coefficients of the interpolating cubic B-spline with zero second difference of the coefficients at both ends: solves
-// (1 4 1)/6 c = v; the end conditions make c_0 = v_0.
+// Coefficients of the interpolating cubic B-spline with zero second difference of the coefficients at both
+// ends: solves (1 4 1)/6 c = v; the end conditions make c_0 = v_0.
 void interpolate(const Line& line) {
   const int n = line.n;
   std::vector<double> upper(n, 0.0);
@@ -42,7 +42,8 @@ void interpolate(const Line& line) {
   for (int k = n - 2; k > 0; --k) line[k] -= upper[k] * line[k + 1];
 }
 
-// Largest difference of neighbouring coefficients along each axis, combined: the slope of a B-spline is a mean of them.
+// Largest difference of neighbouring coefficients along each axis, combined: the slope of a B-spline is a
+// mean of them.
 double steepest_step(const std::vector<double>& c, int nx, int ny) {
   double along_x = 0, along_y = 0;
   for (int j = 0; j < ny; ++j)
@@ -59,9 +60,11 @@ double steepest_step(const std::vector<double>& c, int nx, int ny) {
 template <int D>
 BedSpline<D>::BedSpline(const std::function<double(double, double)>& level, const Lattice& lattice)
     : inv_spacing_(1 / lattice.spacing) {
-  constexpr int margin = 12;  // nodes: wide enough for buffers outside the domain and for the ends to be forgotten
+  constexpr int margin =
+      12;  // nodes: wide enough for buffers outside the domain and for the ends to be forgotten
   const auto nodes = [&](int k) {
-    return static_cast<int>(std::ceil((lattice.high[k] - lattice.low[k]) / lattice.spacing - 1e-9)) + 1 + 2 * margin;
+    return static_cast<int>(std::ceil((lattice.high[k] - lattice.low[k]) / lattice.spacing - 1e-9)) + 1 +
+           2 * margin;
   };
   nx_ = nodes(0);
   ny_ = D == 2 ? nodes(1) : 1;

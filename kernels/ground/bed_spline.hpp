@@ -12,12 +12,13 @@ namespace freshet {
 
 template <class V, int D>
 struct BedPoint {
-  V b{0.0};               // m, upwards
-  Vec<V, D> slope;        // grad b
-  Sym<V, D> curvature;    // 1/m
+  V b{0.0};             // m, upwards
+  Vec<V, D> slope;      // grad b
+  Sym<V, D> curvature;  // 1/m
 };
 
-// Cubic B-spline weights of the four nodes around a fraction f in [0, 1) of a cell, and their first and second derivatives.
+// Cubic B-spline weights of the four nodes around a fraction f in [0, 1) of a cell, and their first and
+// second derivatives.
 template <class V>
 struct SplineWeights {
   V w[4], d[4], dd[4];
@@ -32,8 +33,8 @@ struct SplineWeights {
   }
 };
 
-// Where the samples of a cluster's particles begin in the table, and their values at an offset from there: loads put together,
-// as sixteen gathers take twice the time (Zen 5).
+// Where the samples of a cluster's particles begin in the table, and their values at an offset from there:
+// loads put together, as sixteen gathers take twice the time (Zen 5).
 KOKKOS_FORCEINLINE_FUNCTION const double* corners_of(const double* table, int first) { return table + first; }
 KOKKOS_FORCEINLINE_FUNCTION double value_at(const double* corner, int offset) { return corner[offset]; }
 #ifndef FRESHET_ONE_LANE
@@ -56,7 +57,7 @@ class BedSpline {
   struct Lattice {
     std::array<double, 2> low, high;  // m, the region to cover (margins are added here)
     double spacing;                   // m, of the bottom particles
-    double filter;                    // m, standard deviation of the smoothing applied to the levels; 0 = none
+    double filter;  // m, standard deviation of the smoothing applied to the levels; 0 = none
   };
 
   // Samples level(x, y) [m] on the lattice.
@@ -97,8 +98,10 @@ class BedSpline {
 
   template <bool curved, class V>
   KOKKOS_FORCEINLINE_FUNCTION BedPoint<V, 2> sample(const Vec<V, 2>& p) const {
-    const auto i = first_node((p.x - x0_) * inv_spacing_, nx_), j = first_node((p.y - y0_) * inv_spacing_, ny_);
-    const SplineWeights<V> a((p.x - x0_) * inv_spacing_ - to_real(i) - 1.0), b((p.y - y0_) * inv_spacing_ - to_real(j) - 1.0);
+    const auto i = first_node((p.x - x0_) * inv_spacing_, nx_),
+               j = first_node((p.y - y0_) * inv_spacing_, ny_);
+    const SplineWeights<V> a((p.x - x0_) * inv_spacing_ - to_real(i) - 1.0),
+        b((p.y - y0_) * inv_spacing_ - to_real(j) - 1.0);
     const auto corners = corners_of(level_.data(), j * nx_ + i);
     BedPoint<V, 2> s;
     for (int l = 0; l < 4; ++l) {
@@ -124,7 +127,8 @@ class BedSpline {
     return s;
   }
 
-  // First of the four nodes around the coordinate s (in spacings); beyond the lattice the rim's cubic goes on.
+  // First of the four nodes around the coordinate s (in spacings); beyond the lattice the rim's cubic goes
+  // on.
   template <class V>
   static KOKKOS_FORCEINLINE_FUNCTION auto first_node(V s, int n) {
     return to_index(clamp(s - 1.0, V(0.0), V(n - 4.0)));

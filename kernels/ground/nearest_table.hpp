@@ -1,5 +1,5 @@
-// A property of the ground on a regular lattice. A place has the value of the nearest node: land use has edges, nothing is
-// blended across them. Beyond the lattice the rim's value goes on.
+// A property of the ground on a regular lattice. A place has the value of the nearest node: land use has
+// edges, nothing is blended across them. Beyond the lattice the rim's value goes on.
 #pragma once
 #include <array>
 #include <functional>

@@ -1,5 +1,6 @@
 // Preconditioned conjugate gradients for any symmetric positive (semi-)definite operator:
-//   x += alpha p, r -= alpha A p, z = D^-1 r + C r, p = z + beta p,   alpha = r.z / p.Ap, beta = (r.z)_new / r.z
+//   x += alpha p, r -= alpha A p, z = D^-1 r + C r, p = z + beta p,   alpha = r.z / p.Ap, beta = (r.z)_new /
+//   r.z
 // (thesis Algorithm 1 with the sign of r mended). Jacobi's D^-1 always; C is an optional additive correction.
 // An iteration visits memory three times: p, A p with p.Ap, and x, r, z with r.r and r.z (+ what C does).
 // Results do not depend on the number of threads. Nothing is allocated after the first solve of a size.
@@ -12,15 +13,15 @@
 namespace freshet::linear {
 
 struct CgOptions {
-  double tolerance = 1e-6;    // of |r| / |b|, r as the recurrence has it
+  double tolerance = 1e-6;  // of |r| / |b|, r as the recurrence has it
   int max_iterations = 1000;
-  double scale = 0;           // > 0: |r| is measured in this instead of |b|
-  bool from_zero = true;      // x starts at zero; false: at what it holds (one operator call more)
+  double scale = 0;       // > 0: |r| is measured in this instead of |b|
+  bool from_zero = true;  // x starts at zero; false: at what it holds (one operator call more)
 };
 
 struct CgReport {
-  // not_positive: p.Ap or r.z was not a positive finite number: the operator or the preconditioner is not positive definite, or
-  // something was not finite. x is then the last iterate before.
+  // not_positive: p.Ap or r.z was not a positive finite number: the operator or the preconditioner is not
+  // positive definite, or something was not finite. x is then the last iterate before.
   enum class Outcome { converged, iteration_limit, not_positive };
   Outcome outcome = Outcome::converged;
   int iterations = 0;
@@ -66,10 +67,11 @@ class ConjugateGradients {
   // The number of unknowns of the systems to come.
   void resize(int unknowns);
 
-  // a(x, y) sets y := A x and returns x.Ax; preconditioner: Jacobi or JacobiPlus. b: unknowns; x: start (see options) and result.
+  // a(x, y) sets y := A x and returns x.Ax; preconditioner: Jacobi or JacobiPlus. b: unknowns; x: start (see
+  // options) and result.
   template <class Operator, class Preconditioner>
-  [[nodiscard]] CgReport solve(const Operator& a, const Preconditioner& preconditioner, const Vector& b, const Vector& x,
-                               const CgOptions& options);
+  [[nodiscard]] CgReport solve(const Operator& a, const Preconditioner& preconditioner, const Vector& b,
+                               const Vector& x, const CgOptions& options);
 
  private:
   int size_ = 0;
@@ -77,8 +79,8 @@ class ConjugateGradients {
 };
 
 template <class Operator, class Preconditioner>
-CgReport ConjugateGradients::solve(const Operator& a, const Preconditioner& preconditioner, const Vector& b, const Vector& x,
-                                   const CgOptions& options) {
+CgReport ConjugateGradients::solve(const Operator& a, const Preconditioner& preconditioner, const Vector& b,
+                                   const Vector& x, const CgOptions& options) {
   using Outcome = CgReport::Outcome;
   const Vector& d = preconditioner.inverse_diagonal;
   if (options.from_zero) {

@@ -1,5 +1,5 @@
-// Small symmetric systems of fixed size, for values V that are doubles or packs: all loops are unrolled by the compiler's front
-// end, so that the numbers stay in registers. Device-safe.
+// Small symmetric systems of fixed size, for values V that are doubles or packs: all loops are unrolled by
+// the compiler's front end, so that the numbers stay in registers. Device-safe.
 #pragma once
 #include <utility>
 
@@ -49,9 +49,9 @@ struct Symmetric {
   }
 };
 
-// Pivots below `least` times their diagonal entry count as zero: the unknown is left out (its value becomes 0). Those of the unknowns from
-// `soft_from` on grow by `stiffness` times what they fall short of `soft` times their diagonal entry: what the system hardly determines is
-// drawn towards 0.
+// Pivots below `least` times their diagonal entry count as zero: the unknown is left out (its value becomes
+// 0). Those of the unknowns from `soft_from` on grow by `stiffness` times what they fall short of `soft`
+// times their diagonal entry: what the system hardly determines is drawn towards 0.
 template <class V>
 struct Pivots {
   double least = 1e-10;
@@ -60,12 +60,13 @@ struct Pivots {
   V soft = V(0.0);
 };
 
-// L D L^T of a symmetric matrix with no negative eigenvalues; singular ones have a bounded answer. `complete` tells how many unknowns the
-// matrix determines (1 = all).
+// L D L^T of a symmetric matrix with no negative eigenvalues; singular ones have a bounded answer. `complete`
+// tells how many unknowns the matrix determines (1 = all).
 template <class V, int N>
 class Factored {
  public:
-  explicit KOKKOS_FORCEINLINE_FUNCTION Factored(const Symmetric<V, N>& g, const Pivots<V>& pivots = {}) : l_(g) {
+  explicit KOKKOS_FORCEINLINE_FUNCTION Factored(const Symmetric<V, N>& g, const Pivots<V>& pivots = {})
+      : l_(g) {
     V kept{0.0};
     unroll<N>([&](auto i) {
       unroll<i>([&](auto j) {  // l(i, j) holds L D until its row is done

@@ -18,7 +18,8 @@ double lattice_sum(const GeneralKernel<D>& kernel, double eta) {
 template <int D>
 AnyKernel<D> make_kernel(const KernelChoice& choice, double eta, bool lattice_correction) {
   if (std::holds_alternative<kernel::Cubic>(choice) && !lattice_correction) return CubicSpline<D>{};
-  return general_kernel<D>(choice, lattice_correction ? 1 / lattice_sum(general_kernel<D>(choice), eta) : 1.0);
+  return general_kernel<D>(choice,
+                           lattice_correction ? 1 / lattice_sum(general_kernel<D>(choice), eta) : 1.0);
 }
 
 template AnyKernel<1> make_kernel<1>(const KernelChoice&, double, bool);

@@ -1,5 +1,5 @@
-// Smoothing kernels W(r, h) = w(r / h) / h^D, as w and dw/dq of q = r/h without branches: both vanish outside the support
-// by construction. Norms are part of w.
+// Smoothing kernels W(r, h) = w(r / h) / h^D, as w and dw/dq of q = r/h without branches: both vanish outside
+// the support by construction. Norms are part of w.
 #pragma once
 #include <cmath>
 #include <variant>
@@ -14,8 +14,8 @@ struct KernelValue {
   V dw;  // dw/dq
 };
 
-// Cubic spline (Monaghan 1992; thesis 1.5): (2/3)[(2-q)^3/4 - (1-q)^3] with negative brackets cut to zero, times
-// 1 (1-D) or 15/(7 pi) (2-D). Support 2h.
+// Cubic spline (Monaghan 1992; thesis 1.5): (2/3)[(2-q)^3/4 - (1-q)^3] with negative brackets cut to zero,
+// times 1 (1-D) or 15/(7 pi) (2-D). Support 2h.
 template <int D>
 struct CubicSpline {
   static constexpr double support = 2.0;
@@ -34,8 +34,9 @@ struct CubicSpline {
   }
 };
 
-// The kernels as data: a sum of truncated powers p = (knot - q)+, or the Gaussian cut at its support. One type for all of
-// them keeps the compiled kernels few; the cubic spline has its own above because it is the default.
+// The kernels as data: a sum of truncated powers p = (knot - q)+, or the Gaussian cut at its support. One
+// type for all of them keeps the compiled kernels few; the cubic spline has its own above because it is the
+// default.
 template <int D>
 struct GeneralKernel {
   struct Term {
@@ -115,8 +116,8 @@ struct Gaussian {
   }
 };
 
-// Wendland's C2 function, support 2h: (1 - q/2)^3 (1 + 3q/2) in 1-D, (1 - q/2)^4 (1 + 2q) in 2-D; with p = 2 - q both are
-// two powers.
+// Wendland's C2 function, support 2h: (1 - q/2)^3 (1 + 3q/2) in 1-D, (1 - q/2)^4 (1 + 2q) in 2-D; with p = 2
+// - q both are two powers.
 struct Wendland {
   static constexpr const char* name = "wendland";
   template <int D>
@@ -128,7 +129,8 @@ struct Wendland {
 
 }  // namespace kernel
 
-using KernelChoice = std::variant<kernel::Cubic, kernel::Quartic, kernel::Quintic, kernel::Gaussian, kernel::Wendland>;
+using KernelChoice =
+    std::variant<kernel::Cubic, kernel::Quartic, kernel::Quintic, kernel::Gaussian, kernel::Wendland>;
 
 template <int D>
 GeneralKernel<D> general_kernel(const KernelChoice& choice, double kappa = 1) {
@@ -147,10 +149,8 @@ AnyKernel<D> make_kernel(const KernelChoice& choice, double eta, bool lattice_co
 // h^D and 1/h^D of a smoothing length.
 template <int D, class V>
 KOKKOS_FORCEINLINE_FUNCTION V power(V h) {
-  if constexpr (D == 1)
-    return h;
-  else
-    return h * h;
+  if constexpr (D == 1) return h;
+  else return h * h;
 }
 
 }  // namespace freshet

@@ -11,10 +11,12 @@ KOKKOS_FORCEINLINE_FUNCTION Lane growth(Lane z) {
   return (1.0 + half) / (1.0 - half);
 }
 
-// What the bed adds to a = -t, storing its level: -B (g + v.k v - t.B) / (1 + B.B); classical: -g B, without curvature.
+// What the bed adds to a = -t, storing its level: -B (g + v.k v - t.B) / (1 + B.B); classical: -g B, without
+// curvature.
 template <int D>
-KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, D> bed_acceleration(const BedTerm<D>& bed, const Lanes& me, const Particles<D>& f,
-                                                          const Vec<Lane, D>& a, Lane g) {
+KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, D> bed_acceleration(const BedTerm<D>& bed, const Lanes& me,
+                                                          const Particles<D>& f, const Vec<Lane, D>& a,
+                                                          Lane g) {
   if (!bed.variational) {
     const BedPoint<Lane, D> b = bed.spline.sloped_at(me.load(f.x));
     me.store(bed.level, b.b);
@@ -22,7 +24,8 @@ KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, D> bed_acceleration(const BedTerm<D>& bed,
   }
   const BedPoint<Lane, D> b = bed.spline.at(me.load(f.x));
   me.store(bed.level, b.b);
-  const Lane push = (g + quadratic(b.curvature, me.load(f.v_pred)) + dot(a, b.slope)) / (1.0 + dot(b.slope, b.slope));
+  const Lane push =
+      (g + quadratic(b.curvature, me.load(f.v_pred)) + dot(a, b.slope)) / (1.0 + dot(b.slope, b.slope));
   return -push * b.slope;
 }
 
@@ -41,7 +44,8 @@ void kick_and_drift(const Particles<D>& p, const MotionOptions<D>& options, int 
   const bool friction = options.friction.has_value();
   const ImposedLanes imposed = options.imposed;
   const Field<double> drag_field = options.drag;
-  launch("swe::kick_and_drift", Range(0, blocks(n)), KOKKOS_LAMBDA(int b) {
+  launch(
+      "swe::kick_and_drift", Range(0, blocks(n)), KOKKOS_LAMBDA(int b) {
         const Lanes me = block(b, n);
         const Lane moved = imposed(me), half_dt = 0.5 * dt;
         const Vec<Lane, D> half_kick = half_dt * me.load(f.a);
@@ -53,7 +57,8 @@ void kick_and_drift(const Particles<D>& p, const MotionOptions<D>& options, int 
         me.store(f.v, v);
         me.store(f.v_pred, v_pred);
         me.store(f.x, me.load(f.x) + Lane(dt) * v);
-        const Lane before = me.load(f.rho), rho = before * growth(dt * me.load(f.growth) / before), h0 = me.load(f.h0);
+        const Lane before = me.load(f.rho), rho = before * growth(dt * me.load(f.growth) / before),
+                   h0 = me.load(f.h0);
         me.store(f.rho, rho);
         const Lane h = smoothing_length<D>(me.load(f.kh), rho);
         me.store(f.h, select(Lane(0.5) < moved, h, clamp(h, bounds.floor * h0, bounds.cap * h0)));

@@ -10,8 +10,9 @@
 namespace freshet::swe {
 
 struct Friction {
-  double gravity, manning;       // m/s2, s/m^(1/3)
-  NearestTable roughness2 = {};  // n^2 [s2/m^(2/3)] by place; empty: `manning` everywhere, nothing is looked up
+  double gravity, manning;  // m/s2, s/m^(1/3)
+  NearestTable roughness2 =
+      {};  // n^2 [s2/m^(2/3)] by place; empty: `manning` everywhere, nothing is looked up
 
   // K = g n^2 / d^(4/3) [1/m]: deceleration K |v| v (corrected (2.47)).
   template <class V>
@@ -41,8 +42,8 @@ KOKKOS_FORCEINLINE_FUNCTION Vec<V, D> slowed(const Vec<V, D>& v, V drag, V dt) {
 template <int D>
 struct BedTerm {
   BedSpline<D> spline;
-  bool variational;           // corrected (2.23) with curvature; else classical a = -t - g grad b
-  Field<double> level;        // m, b under each particle
+  bool variational;     // corrected (2.23) with curvature; else classical a = -t - g grad b
+  Field<double> level;  // m, b under each particle
 };
 
 template <int D>
@@ -51,22 +52,22 @@ struct MotionOptions {
   LengthBounds bounds;
   std::optional<BedTerm<D>> bed;
   std::optional<Friction> friction;
-  Field<double> drag;   // 1/m, with friction
-  ImposedLanes imposed; // these move at their imposed velocity
-  bool walled = false;  // a step may not carry a particle past the walls that it has not met yet
+  Field<double> drag;    // 1/m, with friction
+  ImposedLanes imposed;  // these move at their imposed velocity
+  bool walled = false;   // a step may not carry a particle past the walls that it has not met yet
 };
 
 // 2-D. Bed: with curvature; its table stays in the cache.
-inline constexpr Cost kick_and_drift_cost{0, 27, 18}, accelerate_cost{0, 7, 11}, bed_cost{0, 217, 5}, bed_slope_cost{0, 150, 3},
-    friction_cost{0, 40, 1};
+inline constexpr Cost kick_and_drift_cost{0, 27, 18}, accelerate_cost{0, 7, 11}, bed_cost{0, 217, 5},
+    bed_slope_cost{0, 150, 3}, friction_cost{0, 40, 1};
 
 // v(t) -> v(t + dt/2), x -> x(t + dt); predicts v, rho, h at t + dt.
 template <int D>
 void kick_and_drift(const Particles<D>& p, const MotionOptions<D>& options, int n, double dt);
 
-// a from t and the bed; v -> v + a kick_dt; returns min h / (c + signal) [s], the time a signal takes to cross h,
-// between walls also the time in which a particle moves by 2 h, so that it does not jump past a wall that it has not met: at CFL
-// 0.4 this shortens the steps of thin water with a Froude number above 2.
+// a from t and the bed; v -> v + a kick_dt; returns min h / (c + signal) [s], the time a signal takes to
+// cross h, between walls also the time in which a particle moves by 2 h, so that it does not jump past a wall
+// that it has not met: at CFL 0.4 this shortens the steps of thin water with a Froude number above 2.
 template <int D>
 double accelerate_and_kick(const Particles<D>& p, const MotionOptions<D>& options, int n, double kick_dt);
 

@@ -1,5 +1,6 @@
 // The particle fields of explicit SPH for the shallow water equations (Vacondio 2010, ch. 2).
-// Units: rho_w = 1, so that the density per area rho is the depth d [m] and the mass m is a volume [m3] (1-D: [m2], unit width).
+// Units: rho_w = 1, so that the density per area rho is the depth d [m] and the mass m is a volume [m3] (1-D:
+// [m2], unit width).
 #pragma once
 #include "cellgrid/particles/fields.hpp"
 #include "cellgrid/particles/twin.hpp"
@@ -7,7 +8,8 @@
 
 namespace freshet::swe {
 
-// What pairs see of a neighbour beside its position, in single precision (single.hpp); empty = pairs are summed in double.
+// What pairs see of a neighbour beside its position, in single precision (single.hpp); empty = pairs are
+// summed in double.
 struct SingleCopies {
   Kokkos::View<SingleRecord<4>*, Memory> motion;  // of the density
   Kokkos::View<SingleRecord<16>*, Memory> state;  // of the force
@@ -18,15 +20,15 @@ struct SingleCopies {
 template <int D>
 struct Particles {
   VecField<double, D> x;
-  VecField<double, D> v;            // at t, or at t + dt/2 inside a step
-  VecField<double, D> v_pred;       // predicted at t + dt, what pairs see
+  VecField<double, D> v;       // at t, or at t + dt/2 inside a step
+  VecField<double, D> v_pred;  // predicted at t + dt, what pairs see
   VecField<double, D> a;
   Field<double> m;
-  Field<double> h0;                 // reference smoothing length: bounds of h
-  Field<double> kh;                 // rho0 h0^D: the constant of rho h^D = kh (2.5)
-  Field<double> rho;                // density = depth
-  Field<double> rate;               // d rho/dt (2.34)
-  Field<double> growth;             // d rho/dt expected in the middle of the next step
+  Field<double> h0;      // reference smoothing length: bounds of h
+  Field<double> kh;      // rho0 h0^D: the constant of rho h^D = kh (2.5)
+  Field<double> rho;     // density = depth
+  Field<double> rate;    // d rho/dt (2.34)
+  Field<double> growth;  // d rho/dt expected in the middle of the next step
   Field<double> h, inv_h;
   Field<double> pressure;           // g / (2 alpha), p / (rho^2 alpha) of (2.22)
   Field<double> celerity;           // sqrt(g d)
@@ -74,10 +76,8 @@ struct Particles {
 // Smoothing length of a depth: rho h^D = kh.
 template <int D, class V>
 KOKKOS_FORCEINLINE_FUNCTION V smoothing_length(V kh, V rho) {
-  if constexpr (D == 1)
-    return kh / rho;
-  else
-    return root(kh / rho);
+  if constexpr (D == 1) return kh / rho;
+  else return root(kh / rho);
 }
 
 // Bounds of h: light shoreline particles keep h >= floor h0, isolated ones h <= cap h0.
@@ -85,7 +85,8 @@ struct LengthBounds {
   double floor, cap;  // x h0
 };
 
-// 1 in the lanes of particles whose state is imposed (kind != 0), else 0. Without a kind field nothing is imposed.
+// 1 in the lanes of particles whose state is imposed (kind != 0), else 0. Without a kind field nothing is
+// imposed.
 struct ImposedLanes {
   Field<int> kind;
 

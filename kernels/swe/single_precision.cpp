@@ -49,11 +49,12 @@ struct CopyState {
 
 template <int D>
 void copy_motion(const Particles<D>& p, int size) {
-  launch("swe::copy_motion", Range(0, size), KOKKOS_LAMBDA(int i) {
-    SingleRecord<4>& to = p.single.motion(i);
-    put_pair(to, 0, at(p.v_pred, i));
-    to.value[2] = single(p.m(i));
-  });
+  launch(
+      "swe::copy_motion", Range(0, size), KOKKOS_LAMBDA(int i) {
+        SingleRecord<4>& to = p.single.motion(i);
+        put_pair(to, 0, at(p.v_pred, i));
+        to.value[2] = single(p.m(i));
+      });
 }
 
 template <int D>

@@ -1,4 +1,5 @@
-// Ids of new particles: each is given once in a run, and what is the same step of the same run gives the same.
+// Ids of new particles: each is given once in a run, and what is the same step of the same run gives the
+// same.
 #pragma once
 #include <limits>
 #include <stdexcept>
@@ -10,7 +11,8 @@ namespace freshet {
 struct OutOfIds : std::length_error {
   OutOfIds()
       : std::length_error("the run has let in or split " + std::to_string(std::numeric_limits<int>::max()) +
-                          " particles, as many as there are numbers for\n  help: go on from its last output as a new run, or "
+                          " particles, as many as there are numbers for\n  help: go on from its last output "
+                          "as a new run, or "
                           "use a larger water.spacing") {}
 };
 

@@ -9,11 +9,12 @@
 namespace freshet {
 namespace {
 
-// h may have grown since its local largest was measured (a neighbour list covers 5 %); what lies beyond a kernel adds zero.
+// h may have grown since its local largest was measured (a neighbour list covers 5 %); what lies beyond a
+// kernel adds zero.
 constexpr double reach = CubicSpline<2>::support * 1.06;
 
-// Cells are taken `lanes` at a time: in 2-D two rows of half as many, since a kernel that covers one cell of a compact block
-// covers more of the others than of a long one.
+// Cells are taken `lanes` at a time: in 2-D two rows of half as many, since a kernel that covers one cell of
+// a compact block covers more of the others than of a long one.
 template <int D>
 constexpr int rows_of_block = D == 2 && lanes > 1 ? 2 : 1;
 template <int D>
@@ -45,7 +46,8 @@ struct Block {
 
 template <int D>
 KOKKOS_FORCEINLINE_FUNCTION Block<D> block_at(const CellGrid& grid, const CellBlocks& blocks, int k) {
-  return {blocks.i0 + k % blocks.across * columns_of_block<D>, blocks.j0 + k / blocks.across * rows_of_block<D>, grid.nx, grid.ny};
+  return {blocks.i0 + k % blocks.across * columns_of_block<D>,
+          blocks.j0 + k / blocks.across * rows_of_block<D>, grid.nx, grid.ny};
 }
 
 template <int D>
@@ -61,7 +63,8 @@ struct Rectangle {
 };
 
 template <int D>
-KOKKOS_FORCEINLINE_FUNCTION void add(const SortedWater<D>& water, int j, const Vec<Lane, D>& place, Cover<D>& sums) {
+KOKKOS_FORCEINLINE_FUNCTION void add(const SortedWater<D>& water, int j, const Vec<Lane, D>& place,
+                                     Cover<D>& sums) {
   const double depth = water.depth(j), h = water.h(j), per = 1.0 / (depth * h), inv_h = per * depth;
   const double volume = water.mass(j) * per * (D == 2 ? inv_h : 1.0);  // V / h^D
   const Vec<Lane, D> d = place - broadcast(at(water.x, j));
@@ -75,7 +78,8 @@ KOKKOS_FORCEINLINE_FUNCTION void add(const SortedWater<D>& water, int j, const V
 // Whether the kernel of fluid particle k reaches the rectangle of centres.
 template <int D>
 KOKKOS_FORCEINLINE_FUNCTION bool covers(const SortedWater<D>& water, int k, const Rectangle& s) {
-  const double x = water.x.x(k), along = larger(0.0, larger(s.xlo - x, x - s.xhi)), support = CubicSpline<D>::support * water.h(k);
+  const double x = water.x.x(k), along = larger(0.0, larger(s.xlo - x, x - s.xhi)),
+               support = CubicSpline<D>::support * water.h(k);
   double across = 0;
   if constexpr (D == 2) across = larger(0.0, larger(s.ylo - water.x.y(k), water.x.y(k) - s.yhi));
   const bool fluid = water.kind.extent(0) == 0 || water.kind(k) == 0;
@@ -83,9 +87,11 @@ KOKKOS_FORCEINLINE_FUNCTION bool covers(const SortedWater<D>& water, int k, cons
 }
 
 template <int D>
-KOKKOS_FORCEINLINE_FUNCTION Cover<D> gather_water(const SortedWater<D>& water, const CellGrid& grid, const Block<D>& block) {
+KOKKOS_FORCEINLINE_FUNCTION Cover<D> gather_water(const SortedWater<D>& water, const CellGrid& grid,
+                                                  const Block<D>& block) {
   const Vec<Lane, D> place = centres<D>(grid, block);
-  const Rectangle s{grid.x(block.column(0)), grid.x(block.column(lanes - 1)), grid.y(block.row(0)), grid.y(block.row(lanes - 1))};
+  const Rectangle s{grid.x(block.column(0)), grid.x(block.column(lanes - 1)), grid.y(block.row(0)),
+                    grid.y(block.row(lanes - 1))};
   const double far = reach * water.rows.largest_h(s.xlo, s.xhi, s.ylo, s.yhi);
   Cover<D> sums;
   if (!(far > 0)) return sums;
@@ -106,12 +112,15 @@ CellBlocks blocks_near(const CellGrid& grid, const Rows& rows) {
   const int i0 = cell(rows.x0 - margin, grid.x0, grid.dx, grid.nx);
   const int i1 = cell(rows.x0 + rows.bins * rows.bin_width + margin, grid.x0, grid.dx, grid.nx);
   const int j0 = grid.ny > 1 ? cell(rows.y0 - margin, grid.y0, grid.dy, grid.ny) : 0;
-  const int j1 = grid.ny > 1 ? cell(rows.y0 + rows.rows * rows.row_height + margin, grid.y0, grid.dy, grid.ny) : 0;
+  const int j1 =
+      grid.ny > 1 ? cell(rows.y0 + rows.rows * rows.row_height + margin, grid.y0, grid.dy, grid.ny) : 0;
   return {i0, j0, (i1 - i0) / columns_of_block<D> + 1, (j1 - j0) / rows_of_block<D> + 1};
 }
 
 // The mean over what covers the cell, finite where nothing does.
-KOKKOS_FORCEINLINE_FUNCTION Lane mean(Lane value, Lane cover) { return value / larger(cover, Lane(edge_cover)); }
+KOKKOS_FORCEINLINE_FUNCTION Lane mean(Lane value, Lane cover) {
+  return value / larger(cover, Lane(edge_cover));
+}
 
 }  // namespace
 
@@ -124,7 +133,9 @@ CoverFields cover_cells(const CellGrid& grid, const SortedWater<D>& water) {
   const CoverFields out(grid.size());
   const CellBlocks blocks = blocks_near<D>(grid, water.rows);
   const SortedWater<D> w = water;
-  launch("raster::cover", DynamicRange(0, blocks.count()), KOKKOS_LAMBDA(int k) {  // dry cells cost next to nothing
+  launch(
+      "raster::cover", DynamicRange(0, blocks.count()),
+      KOKKOS_LAMBDA(int k) {  // dry cells cost next to nothing
         const Block<D> cells = block_at<D>(grid, blocks, k);
         const Cover<D> sums = gather_water(w, grid, cells);
         cells.store(out.cover, sums.cover);
@@ -136,8 +147,10 @@ CoverFields cover_cells(const CellGrid& grid, const SortedWater<D>& water) {
 }
 
 Maxima::Maxima(int cells, double wet_depth)
-    : wet(wet_depth), depth("raster.max_depth", static_cast<size_t>(cells)), speed("raster.max_speed", static_cast<size_t>(cells)),
-      depth_speed("raster.max_depth_speed", static_cast<size_t>(cells)), arrival("raster.arrival", static_cast<size_t>(cells)),
+    : wet(wet_depth), depth("raster.max_depth", static_cast<size_t>(cells)),
+      speed("raster.max_speed", static_cast<size_t>(cells)),
+      depth_speed("raster.max_depth_speed", static_cast<size_t>(cells)),
+      arrival("raster.arrival", static_cast<size_t>(cells)),
       last_wet("raster.last_wet", static_cast<size_t>(cells)) {
   assign(arrival, -1.0);
   assign(last_wet, -1.0);
@@ -164,7 +177,8 @@ KOKKOS_FORCEINLINE_FUNCTION WetExtent extent_of(const Block<D>& cells, const Lan
 
 // Takes the cells' sums into the maxima.
 template <int D>
-KOKKOS_FORCEINLINE_FUNCTION WetExtent take(const Maxima& m, const Block<D>& cells, const Cover<D>& sums, double t) {
+KOKKOS_FORCEINLINE_FUNCTION WetExtent take(const Maxima& m, const Block<D>& cells, const Cover<D>& sums,
+                                           double t) {
   const Lane covered = select(sums.cover < Lane(edge_cover), Lane(0.0), Lane(1.0));
   const Lane depth = covered * mean(sums.depth, sums.cover);
   cells.store(m.depth, larger(cells.load(m.depth), depth));
@@ -198,7 +212,8 @@ Front track_maxima(const CellGrid& grid, const SortedWater<D>& water, double t, 
         west = smaller(west, here.west), east = larger(east, here.east);
         south = smaller(south, here.south), north = larger(north, here.north);
       },
-      Kokkos::Sum<int>(count), Kokkos::Min<int>(i_low), Kokkos::Max<int>(i_high), Kokkos::Min<int>(j_low), Kokkos::Max<int>(j_high));
+      Kokkos::Sum<int>(count), Kokkos::Min<int>(i_low), Kokkos::Max<int>(i_high), Kokkos::Min<int>(j_low),
+      Kokkos::Max<int>(j_high));
   if (count == 0) return {};
   return {count, grid.x(i_low), grid.x(i_high), grid.y(j_low), grid.y(j_high)};
 }

@@ -1,5 +1,5 @@
-// Water on a regular grid of cells (thesis 2.6): sums over the particles whose kernel covers a cell's centre, their
-// Shepard means where there is enough water, and the largest values so far.
+// Water on a regular grid of cells (thesis 2.6): sums over the particles whose kernel covers a cell's centre,
+// their Shepard means where there is enough water, and the largest values so far.
 #pragma once
 #include "cellgrid/particles/clusters.hpp"
 #include "kernels/smoothing/smoothing.hpp"
@@ -26,23 +26,26 @@ struct SortedWater {
 };
 template <int D>
 SortedWater<D> sorted_water(const Rows& rows, const FieldSet& f) {
-  return {rows,           f.vector<D>("x", "y"), f.vector<D>("u", "v"), f.real("mass"),
-          f.real("depth"), f.real("h"),          f.integer_or_none("kind")};
+  return {rows,        f.vector<D>("x", "y"),    f.vector<D>("u", "v"), f.real("mass"), f.real("depth"),
+          f.real("h"), f.integer_or_none("kind")};
 }
 
 // Sums at a place: cover is 1 inside the water, 1/2 at its edge, and 0 beyond the particles' kernels.
 template <int D>
 struct Cover {
-  Lane cover{0.0};     // sum V W [1], V = m / d
-  Lane depth{0.0};     // sum V W d [m]
-  Vec<Lane, D> flow;   // sum V W v [m/s]
+  Lane cover{0.0};    // sum V W [1], V = m / d
+  Lane depth{0.0};    // sum V W d [m]
+  Vec<Lane, D> flow;  // sum V W v [m/s]
 };
 
-constexpr double edge_cover = 0.5;   // less than this is no water: the cell is blank
-constexpr double inner_cover = 0.95;  // from here on a depth is the Shepard mean where the edge may be smeared
+constexpr double edge_cover = 0.5;  // less than this is no water: the cell is blank
+constexpr double inner_cover =
+    0.95;  // from here on a depth is the Shepard mean where the edge may be smeared
 
 // The Shepard mean of the depth inside, falling to zero beyond the edge: for norms over wet and dry [m].
-KOKKOS_INLINE_FUNCTION double smeared_depth(double cover, double depth_sum) { return depth_sum / larger(cover, inner_cover); }
+KOKKOS_INLINE_FUNCTION double smeared_depth(double cover, double depth_sum) {
+  return depth_sum / larger(cover, inner_cover);
+}
 
 // One value per cell, x fastest. u, v: sum V W v.
 struct CoverFields {
@@ -54,8 +57,8 @@ struct CoverFields {
 template <int D>
 CoverFields cover_cells(const CellGrid& grid, const SortedWater<D>& water);
 
-// The largest so far, per cell; arrival and last_wet are -1 where the cell was never wet. Depths above `wet` count as wet;
-// speed and depth x speed are taken there only, and a Shepard mean needs edge_cover.
+// The largest so far, per cell; arrival and last_wet are -1 where the cell was never wet. Depths above `wet`
+// count as wet; speed and depth x speed are taken there only, and a Shepard mean needs edge_cover.
 struct Maxima {
   double wet;                               // m
   Field<double> depth, speed, depth_speed;  // m, m/s, m2/s

@@ -8,10 +8,9 @@
 namespace freshet {
 namespace {
 
-// sum V W is 1 within the water, 1/2 at a straight wall, 1/4 in a corner, and falls to 0 beyond a dry front: there the mean of the
-// few particles that reach a point would carry their depth up to 2h ahead of the water.
+// sum V W is 1 within the water, 1/2 at a straight wall, 1/4 in a corner, and falls to 0 beyond a dry front:
+// there the mean of the few particles that reach a point would carry their depth up to 2h ahead of the water.
 constexpr double least_cover = 0.25;
-
 
 // Calls visit(j) for the wet particles in the runs around a place.
 template <int D, class Visit>
@@ -32,7 +31,8 @@ KOKKOS_FUNCTION FRESHET_OUT_OF_LINE SampledDepth sample_depth(const SortedWater<
   for_each_near(water, place, far, [&](int j) {
     const Vec<double, D> d = at(water.x, j) - place;
     const double inv_h = 1.0 / water.h(j);
-    const double w = water.mass(j) / water.depth(j) * power<D>(inv_h) * CubicSpline<D>::at(root(dot(d, d)) * inv_h).w;
+    const double w =
+        water.mass(j) / water.depth(j) * power<D>(inv_h) * CubicSpline<D>::at(root(dot(d, d)) * inv_h).w;
     weight += w;
     depth += w * water.depth(j);
   });
@@ -91,7 +91,8 @@ std::vector<SampledDepth> Sampler<D>::sample(const SortedWater<D>& water, const 
   const auto place = place_;
   const auto found = found_;
   const int count = place.extent_int(0);
-  launch("sampling::depth", Range(0, count), KOKKOS_LAMBDA(int k) {
+  launch(
+      "sampling::depth", Range(0, count), KOKKOS_LAMBDA(int k) {
         found(k) = sample_depth(sorted, place(k));
         found(k).bed = ground ? ground->at(place(k)).b : 0.0;
       });

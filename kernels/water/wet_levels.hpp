@@ -1,7 +1,9 @@
 // How high water has come at a place [m]; -1e300: there was none.
 //   bed:  under the highest wet particle: where its centre stands
-//   line: where its surface meets the bed: bed + min(depth, spacing |grad b|), the surface of that water, no higher than the bed a spacing
-//         up the slope. Particles at rest are wet or dry, so that `bed` rises in steps of spacing |grad b|; `line` does not.
+//   line: where its surface meets the bed: bed + min(depth, spacing |grad b|), the surface of that water, no
+//   higher than the bed a spacing
+//         up the slope. Particles at rest are wet or dry, so that `bed` rises in steps of spacing |grad b|;
+//         `line` does not.
 #pragma once
 #include "cellgrid/parallel/types.hpp"
 

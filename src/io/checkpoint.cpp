@@ -116,14 +116,16 @@ void read_checkpoint_fields(const std::string& path, FieldSet& fields) {
     upload(fields.real(name, reals.text_attribute("unit", name), Carry::state), reals.reals(name));
   }
   for (const auto& name : integers.names()) {
-    upload(fields.integer(name, integers.text_attribute("unit", name), Carry::state), integers.integers(name));
+    upload(fields.integer(name, integers.text_attribute("unit", name), Carry::state),
+           integers.integers(name));
   }
 }
 
 void look_at_checkpoint(const std::string& path, const std::function<void()>& use) try {
   use();
 } catch (const std::out_of_range&) {
-  throw IoError(path + ": lacks what this version looks at; another version of the program wrote it\n  help: start "
+  throw IoError(path +
+                ": lacks what this version looks at; another version of the program wrote it\n  help: start "
                 "the run anew");
 }
 

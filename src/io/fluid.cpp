@@ -18,8 +18,8 @@ std::vector<int> fluid_indices(const FieldSet& fields) {
 Fluid fluid_on_host(const FieldSet& fields) {
   const auto indices = fluid_indices(fields);
   const auto real = [&](const char* name) { return gather(fields.find_real(name), indices); };
-  return {real("x"), real("y"), real("u"), real("v"), real("depth"), real("mass"), real("h"),
-          gather(fields.find_integer("id"), indices)};
+  return {real("x"),     real("y"),    real("u"), real("v"),
+          real("depth"), real("mass"), real("h"), gather(fields.find_integer("id"), indices)};
 }
 
 int fluid_count(const FieldSet& fields) { return static_cast<int>(fluid_indices(fields).size()); }

@@ -1,4 +1,6 @@
-// gauges.csv: one row per gauge time with what each gauge shows, in its unit, and a dry mark (1 = dry); flushed after each row. Numbers have the shortest digits that read back to the same bits. Failures are IoError.
+// gauges.csv: one row per gauge time with what each gauge shows, in its unit, and a dry mark (1 = dry);
+// flushed after each row. Numbers have the shortest digits that read back to the same bits. Failures are
+// IoError.
 #pragma once
 #include <fstream>
 #include <string>
@@ -9,8 +11,9 @@
 namespace freshet {
 
 struct GaugeRow {
-  double t = 0;                   // s
-  std::vector<double> value;  // in the unit of each gauge's measurand; of an elevation the bed's level where dry
+  double t = 0;  // s
+  std::vector<double>
+      value;  // in the unit of each gauge's measurand; of an elevation the bed's level where dry
   std::vector<bool> dry;
 };
 

@@ -38,7 +38,8 @@ struct ParticleColumn {
 struct ParticleStep {
   int step = 0;
   double t = 0;  // s
-  std::vector<ParticleColumn> columns;  // x, y, z, depth, v_0, v_1, p, those of them that the file has, then the others
+  std::vector<ParticleColumn>
+      columns;  // x, y, z, depth, v_0, v_1, p, those of them that the file has, then the others
 
   const std::vector<double>& operator[](const std::string& name) const;  // empty where the file has none
   std::size_t size() const { return (*this)["x"].size(); }

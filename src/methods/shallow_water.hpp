@@ -1,11 +1,11 @@
-// What methods for shallow water have in common: sorted particles with the fields of SortedWater over a bed, and
-// what is looked up among them at fixed places.
+// What methods for shallow water have in common: sorted particles with the fields of SortedWater over a bed,
+// and what is looked up among them at fixed places.
 #pragma once
 #include <optional>
 
 #include "kernels/ground/nearest_table.hpp"
-#include "kernels/water/sampling.hpp"
 #include "kernels/smoothing/smoothing.hpp"
+#include "kernels/water/sampling.hpp"
 #include "src/methods/method.hpp"
 #include "src/scene/place/place.hpp"
 
@@ -22,7 +22,8 @@ std::optional<BedSpline<D>> bed_spline(const Scene& scene, const Domain& over) {
 
 // m, at t = 0.
 template <int D>
-FRESHET_OUT_OF_LINE double initial_depth(const Scene& scene, const std::optional<BedSpline<D>>& bed, const Point& x) {
+FRESHET_OUT_OF_LINE double initial_depth(const Scene& scene, const std::optional<BedSpline<D>>& bed,
+                                         const Point& x) {
   if (!scene.water.surface) return scene.water.depth(x[0], x[1]);
   return scene.water.surface(x[0], x[1]) - (bed ? bed->at(to_vec<D>(x)).b : 0.0);
 }

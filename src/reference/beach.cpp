@@ -6,8 +6,8 @@
 namespace freshet {
 namespace {
 
-// Numbers of the transform, all without units: wave numbers to the end of the spectrum of any hump that does not break, nodes
-// in sigma (the root of the depth) to far beyond the humps.
+// Numbers of the transform, all without units: wave numbers to the end of the spectrum of any hump that does
+// not break, nodes in sigma (the root of the depth) to far beyond the humps.
 constexpr int wave_numbers = 400, nodes = 2000;
 constexpr double wave_step = 0.2, farthest = 3.6;  // of the sum over k; sigma
 constexpr int most_iterations = 60;
@@ -32,7 +32,8 @@ class Hodograph {
     }
   }
 
-  // The state at depth sigma^2 and time t: lambda = t - u by fixed-point iteration, which contracts unless the wave breaks.
+  // The state at depth sigma^2 and time t: lambda = t - u by fixed-point iteration, which contracts unless
+  // the wave breaks.
   Node at(double sigma, double t) const {
     double u = 0;
     for (int n = 0; n < most_iterations; ++n) {
@@ -47,7 +48,8 @@ class Hodograph {
   static double wave(int i) { return (i + 0.5) * wave_step; }
   static double start(const Beach& beach, double s) {
     double level = 0;
-    for (const BeachHump& hump : beach.humps) level += hump.height * std::exp(-hump.steepness * (s - hump.at) * (s - hump.at));
+    for (const BeachHump& hump : beach.humps)
+      level += hump.height * std::exp(-hump.steepness * (s - hump.at) * (s - hump.at));
     return level;
   }
 
@@ -62,7 +64,8 @@ class Hodograph {
   double level(double sigma, double lambda, double u) const {
     double sum = 0;
     for (int i = 0; i < wave_numbers; ++i)
-      sum += spectrum_[static_cast<std::size_t>(i)] * ::j0(wave(i) * sigma) * std::cos(0.5 * wave(i) * lambda);
+      sum +=
+          spectrum_[static_cast<std::size_t>(i)] * ::j0(wave(i) * sigma) * std::cos(0.5 * wave(i) * lambda);
     return sum - 0.5 * u * u;
   }
 
@@ -72,12 +75,14 @@ class Hodograph {
 class BeachWave : public Exact {
  public:
   BeachWave(const Beach& beach, double gravity)
-      : hodograph_(beach), slope_(beach.slope), length_(beach.length), speed_(std::sqrt(gravity * beach.slope * beach.length)) {}
+      : hodograph_(beach), slope_(beach.slope), length_(beach.length),
+        speed_(std::sqrt(gravity * beach.slope * beach.length)) {}
 
   FlowState at(double x, double, double t) const override {
     if (t != time_ || profile_.empty()) make_profile(t);
     const double place = x / length_;
-    const auto next = std::lower_bound(profile_.begin(), profile_.end(), place, [](const Node& n, double p) { return n.x < p; });
+    const auto next = std::lower_bound(profile_.begin(), profile_.end(), place,
+                                       [](const Node& n, double p) { return n.x < p; });
     if (next == profile_.begin()) return {0, profile_[0].u * speed_, 0};
     if (next == profile_.end()) return {slope_ * x, 0, 0};  // beyond the waves
     const Node &a = *(next - 1), &b = *next;
@@ -93,7 +98,8 @@ class BeachWave : public Exact {
  private:
   void make_profile(double t) const {
     profile_.clear();
-    for (int j = 0; j <= nodes; ++j) profile_.push_back(hodograph_.at(farthest * j / nodes, t * speed_ / length_));
+    for (int j = 0; j <= nodes; ++j)
+      profile_.push_back(hodograph_.at(farthest * j / nodes, t * speed_ / length_));
     time_ = t;
   }
 
@@ -105,7 +111,9 @@ class BeachWave : public Exact {
 
 }  // namespace
 
-std::unique_ptr<Exact> beach_wave(const Beach& beach, double gravity) { return std::make_unique<BeachWave>(beach, gravity); }
+std::unique_ptr<Exact> beach_wave(const Beach& beach, double gravity) {
+  return std::make_unique<BeachWave>(beach, gravity);
+}
 
 Shore beach_shore(const Beach& beach, double gravity, double t) { return BeachWave(beach, gravity).shore(t); }
 

@@ -1,5 +1,6 @@
-// Waves on a plane beach by the hodograph transform of Carrier and Greenspan (1958), as Carrier, Wu and Yeh (2003) use it for
-// water that starts at rest: exact for the nonlinear shallow-water equations as long as nothing breaks.
+// Waves on a plane beach by the hodograph transform of Carrier and Greenspan (1958), as Carrier, Wu and Yeh
+// (2003) use it for water that starts at rest: exact for the nonlinear shallow-water equations as long as
+// nothing breaks.
 #pragma once
 #include <memory>
 #include <vector>
@@ -18,8 +19,8 @@ struct Beach {
   std::vector<BeachHump> humps;
 };
 
-// Depth and velocity (positive seawards). The last time asked for is kept: at() costs a search while the time stays the same.
-// One thread at a time.
+// Depth and velocity (positive seawards). The last time asked for is kept: at() costs a search while the time
+// stays the same. One thread at a time.
 std::unique_ptr<Exact> beach_wave(const Beach& beach, double gravity);
 
 // Where the shore lies at time t, as x [m], and how fast it moves [m/s].

@@ -40,7 +40,8 @@ SteadyBumpFlow::SteadyBumpFlow(const Bump& bump, const BumpFlow& flow, double gr
   find_jump();
 }
 
-// m: d + q^2/(2 g d^2) = head - b. Newton falls on to either root from outside; below the critical energy both are critical.
+// m: d + q^2/(2 g d^2) = head - b. Newton falls on to either root from outside; below the critical energy
+// both are critical.
 double SteadyBumpFlow::depth(double x, double head, bool supercritical) const {
   const double critical = critical_depth(discharge_, gravity_), energy = head - bump_.level(x);
   if (energy <= 1.5 * critical * (1 + 1e-12)) return critical;
@@ -64,8 +65,10 @@ void SteadyBumpFlow::find_jump() {
   // The subcritical side exists where its energy reaches over the bed.
   const double critical_energy = 1.5 * critical_depth(discharge_, gravity_);
   const double first = head_behind_ - bump_.height >= critical_energy
-                         ? bump_.centre
-                         : root_between(bump_.centre, foot, [&](double x) { return head_behind_ - bump_.level(x) - critical_energy; });
+                           ? bump_.centre
+                           : root_between(bump_.centre, foot, [&](double x) {
+                               return head_behind_ - bump_.level(x) - critical_energy;
+                             });
   jump_ = root_between(first, foot, excess);
 }
 

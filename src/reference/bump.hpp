@@ -1,5 +1,6 @@
-// Steady flow without friction over a parabolic bump, exact (Goutal and Maurel 1997; Vacondio 2010, section 4.3): one discharge,
-// constant energy on either side of a jump, and the jump where both sides have the same momentum.
+// Steady flow without friction over a parabolic bump, exact (Goutal and Maurel 1997; Vacondio 2010,
+// section 4.3): one discharge, constant energy on either side of a jump, and the jump where both sides have
+// the same momentum.
 #pragma once
 #include <memory>
 #include <optional>
@@ -14,9 +15,11 @@ struct Bump {
 };
 
 struct BumpFlow {
-  double velocity;                      // m/s, at the inflow on the left
-  std::optional<double> inflow_depth;   // m; given: supercritical inflow that stays so; else the crest is critical
-  std::optional<double> outflow_depth;  // m; given: a jump brings the flow to this depth, if it fits on the bump
+  double velocity;  // m/s, at the inflow on the left
+  std::optional<double>
+      inflow_depth;  // m; given: supercritical inflow that stays so; else the crest is critical
+  std::optional<double>
+      outflow_depth;  // m; given: a jump brings the flow to this depth, if it fits on the bump
 };
 
 class SteadyBumpFlow : public Exact {
@@ -24,8 +27,8 @@ class SteadyBumpFlow : public Exact {
   SteadyBumpFlow(const Bump& bump, const BumpFlow& flow, double gravity);
   FlowState at(double x, double y, double t) const override;
 
-  double discharge() const { return discharge_; }                    // m2/s
-  const std::optional<double>& jump() const { return jump_; }        // m, where it stands
+  double discharge() const { return discharge_; }                     // m2/s
+  const std::optional<double>& jump() const { return jump_; }         // m, where it stands
   double depth_before() const { return depth(*jump_, head_, true); }  // m, at the jump
   double depth_behind() const { return depth(*jump_, head_behind_, false); }
 

@@ -22,6 +22,8 @@ class SteadyEddy : public Exact {
 
 }  // namespace
 
-std::unique_ptr<Exact> eddy(const Eddy& eddy, double gravity) { return std::make_unique<SteadyEddy>(eddy, gravity); }
+std::unique_ptr<Exact> eddy(const Eddy& eddy, double gravity) {
+  return std::make_unique<SteadyEddy>(eddy, gravity);
+}
 
 }  // namespace freshet

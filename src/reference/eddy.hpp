@@ -1,5 +1,6 @@
-// A steady eddy on flat still water: v(r) = speed (r / radius) exp((1 - (r/radius)^2) / 2), fastest at the radius; the surface sinks
-// by speed^2 / (2 g) exp(1 - (r/radius)^2), whose slope turns the water (v^2 / r = g d eta / d r). Exact for any Froude number.
+// A steady eddy on flat still water: v(r) = speed (r / radius) exp((1 - (r/radius)^2) / 2), fastest at the
+// radius; the surface sinks by speed^2 / (2 g) exp(1 - (r/radius)^2), whose slope turns the water (v^2 / r =
+// g d eta / d r). Exact for any Froude number.
 #pragma once
 #include "src/reference/exact.hpp"
 

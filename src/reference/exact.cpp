@@ -12,10 +12,7 @@ namespace {
 class Stoker : public Exact {
  public:
   Stoker(double left, double right, double dam, double gravity)
-      : left_(left),
-        right_(right),
-        dam_(dam),
-        gravity_(gravity),
+      : left_(left), right_(right), dam_(dam), gravity_(gravity),
         middle_(stoker_middle(left, right, gravity)) {}
 
   FlowState at(double x, double, double t) const override {

@@ -25,7 +25,8 @@ struct Ramp {
   double step;                // m
   std::vector<double> value;  // at least two
   double at(double x) const {
-    const double last = static_cast<double>(value.size()) - 2, cell = std::clamp(std::floor(x / step), 0.0, last);
+    const double last = static_cast<double>(value.size()) - 2,
+                 cell = std::clamp(std::floor(x / step), 0.0, last);
     const auto i = static_cast<std::size_t>(cell);
     return value[i] + (x / step - cell) * (value[i + 1] - value[i]);
   }
@@ -37,7 +38,7 @@ Ramp lost_head(const ChannelFlow& flow, double manning, double length) {
   Ramp lost{length / steps, {0}};
   for (int i = 0; i < steps; ++i)
     lost.value.push_back(lost.value.back() + lost.step * std::pow(manning * flow.discharge, 2) *
-                                               std::pow(flow.depth((i + 0.5) * lost.step, 0), -10.0 / 3));
+                                                 std::pow(flow.depth((i + 0.5) * lost.step, 0), -10.0 / 3));
   return lost;
 }
 
@@ -45,7 +46,8 @@ Ramp lost_head(const ChannelFlow& flow, double manning, double length) {
 
 std::unique_ptr<Exact> macdonald(const ChannelFlow& flow) { return std::make_unique<MacDonald>(flow); }
 
-std::function<double(double, double)> macdonald_bed(const ChannelFlow& flow, double manning, double length, double gravity) {
+std::function<double(double, double)> macdonald_bed(const ChannelFlow& flow, double manning, double length,
+                                                    double gravity) {
   const auto energy = [flow, gravity](double x) {
     const double depth = flow.depth(x, 0);
     return depth + std::pow(flow.discharge / depth, 2) / (2 * gravity);

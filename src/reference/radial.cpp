@@ -39,9 +39,10 @@ Flux hll(double dl, double ul, double dr, double ur, double g) {
 
 class RadialSweep {
  public:
-  RadialSweep(const std::function<double(double)>& initial, double extent, int rings, double gravity, bool plane = false)
-      : plane_(plane), n_(rings), ring_(extent / rings), g_(gravity), now_(empty()), speed_(now_.depth), depth_slope_(now_.depth),
-        speed_slope_(now_.depth), flux_(now_.depth.size()) {
+  RadialSweep(const std::function<double(double)>& initial, double extent, int rings, double gravity,
+              bool plane = false)
+      : plane_(plane), n_(rings), ring_(extent / rings), g_(gravity), now_(empty()), speed_(now_.depth),
+        depth_slope_(now_.depth), speed_slope_(now_.depth), flux_(now_.depth.size()) {
     for (int k = 0; k < n_; ++k) now_.depth[at(k)] = mean(initial, k);
     least_ = dry * *std::max_element(now_.depth.begin(), now_.depth.end());
   }
@@ -57,7 +58,9 @@ class RadialSweep {
   }
 
   RadialProfile profile() const {
-    const auto inside = [this](const std::vector<double>& all) { return std::vector<double>(all.begin() + ghosts, all.end() - ghosts); };
+    const auto inside = [this](const std::vector<double>& all) {
+      return std::vector<double>(all.begin() + ghosts, all.end() - ghosts);
+    };
     return {ring_, inside(now_.depth), inside(speed_)};
   }
 
@@ -110,7 +113,8 @@ class RadialSweep {
                      w.depth[k] - 0.5 * depth_slope_[k], speed_[k] - 0.5 * speed_slope_[k], g_);
   }
 
-  // to = from + dt (-d(r F)/dr + source) / r; the pressure on the sides of the ring balances that on its ends in still water.
+  // to = from + dt (-d(r F)/dr + source) / r; the pressure on the sides of the ring balances that on its ends
+  // in still water.
   void advance(const RadialWater& from, double dt, RadialWater& to) {
     find_fluxes(from);
     for (int k = 0; k < n_; ++k) {
@@ -118,7 +122,8 @@ class RadialSweep {
       const double in = radius(k), out = radius(k + 1), share = dt / (0.5 * (in + out) * ring_);
       const double side = plane_ ? 0 : 0.5 * g_ * from.depth[i] * from.depth[i] * ring_;
       to.depth[i] = std::max(0.0, from.depth[i] - share * (out * flux_[i + 1].mass - in * flux_[i].mass));
-      to.discharge[i] = from.discharge[i] - share * (out * flux_[i + 1].momentum - in * flux_[i].momentum - side);
+      to.discharge[i] =
+          from.discharge[i] - share * (out * flux_[i + 1].momentum - in * flux_[i].momentum - side);
       if (to.depth[i] <= least_) to.discharge[i] = 0;
     }
   }
@@ -156,12 +161,17 @@ class Hump : public Exact {
   }
 
  private:
-  double initial(double r) const { return hump_.level + hump_.amplitude * std::exp(-0.5 * r * r / (hump_.sigma * hump_.sigma)); }
-  // Seven sigma away the hump is below 3e-11 of itself; its waves are at most as fast as that of the highest water.
+  double initial(double r) const {
+    return hump_.level + hump_.amplitude * std::exp(-0.5 * r * r / (hump_.sigma * hump_.sigma));
+  }
+  // Seven sigma away the hump is below 3e-11 of itself; its waves are at most as fast as that of the highest
+  // water.
   void solve(double t) const {
-    const double extent = 7 * hump_.sigma + 1.1 * std::sqrt(gravity_ * (hump_.level + std::max(0.0, hump_.amplitude))) * t;
+    const double extent =
+        7 * hump_.sigma + 1.1 * std::sqrt(gravity_ * (hump_.level + std::max(0.0, hump_.amplitude))) * t;
     const auto start = [this](double r) { return initial(r); };
-    profile_ = hump_.plane ? plane_flow(start, extent, t, rings_, gravity_) : radial_flow(start, extent, t, rings_, gravity_);
+    profile_ = hump_.plane ? plane_flow(start, extent, t, rings_, gravity_)
+                           : radial_flow(start, extent, t, rings_, gravity_);
     time_ = t;
   }
 
@@ -174,7 +184,8 @@ class Hump : public Exact {
 
 class RadialDamBreak : public Exact {
  public:
-  RadialDamBreak(const RadialDam& dam, double gravity, int rings) : dam_(dam), gravity_(gravity), rings_(rings) {}
+  RadialDamBreak(const RadialDam& dam, double gravity, int rings)
+      : dam_(dam), gravity_(gravity), rings_(rings) {}
 
   FlowState at(double x, double y, double t) const override {
     const double rx = x - dam_.x0, ry = y - dam_.y0;
@@ -199,7 +210,8 @@ class RadialDamBreak : public Exact {
 FlowState RadialProfile::at(double rx, double ry) const {
   const double r = std::hypot(rx, ry), place = r / ring - 0.5;
   const int last = static_cast<int>(depth.size()) - 1;
-  if (place >= last) return {depth.back(), speed.back() * (r > 0 ? rx / r : 0), speed.back() * (r > 0 ? ry / r : 0)};
+  if (place >= last)
+    return {depth.back(), speed.back() * (r > 0 ? rx / r : 0), speed.back() * (r > 0 ? ry / r : 0)};
   const int k = std::max(0, static_cast<int>(place));
   const auto i = static_cast<std::size_t>(k);
   if (place < 0) return {depth[0], speed[0] * rx / (0.5 * ring), speed[0] * ry / (0.5 * ring)};
@@ -213,13 +225,15 @@ double RadialProfile::front(double least_depth) const {
   return 0;
 }
 
-RadialProfile radial_flow(const std::function<double(double)>& initial, double extent, double t, int rings, double gravity) {
+RadialProfile radial_flow(const std::function<double(double)>& initial, double extent, double t, int rings,
+                          double gravity) {
   RadialSweep sweep(initial, extent, rings, gravity);
   sweep.run(t);
   return sweep.profile();
 }
 
-RadialProfile plane_flow(const std::function<double(double)>& initial, double extent, double t, int rings, double gravity) {
+RadialProfile plane_flow(const std::function<double(double)>& initial, double extent, double t, int rings,
+                         double gravity) {
   RadialSweep sweep(initial, extent, rings, gravity, true);
   sweep.run(t);
   return sweep.profile();
@@ -232,7 +246,8 @@ std::unique_ptr<Exact> gaussian_hump(const GaussianHump& hump, double gravity, i
 // No wave is faster than the tip on a dry bed, 2 c.
 RadialProfile radial_dam_profile(const RadialDam& dam, double t, double gravity, int rings) {
   const double extent = 1.02 * (dam.radius + 2 * std::sqrt(gravity * dam.inner) * t);
-  return radial_flow([&dam](double r) { return r < dam.radius ? dam.inner : dam.outer; }, extent, t, rings, gravity);
+  return radial_flow([&dam](double r) { return r < dam.radius ? dam.inner : dam.outer; }, extent, t, rings,
+                     gravity);
 }
 
 std::unique_ptr<Exact> radial_dam_break(const RadialDam& dam, double gravity, int rings) {

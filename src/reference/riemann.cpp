@@ -34,7 +34,8 @@ FlowState left_wave(double s, const RiemannState& left, const RiemannMiddle& mid
 class Riemann : public Exact {
  public:
   Riemann(const RiemannState& left, const RiemannState& right, double at, double gravity)
-      : left_(left), right_(right), at_(at), gravity_(gravity), middle_(riemann_middle(left, right, gravity)) {}
+      : left_(left), right_(right), at_(at), gravity_(gravity),
+        middle_(riemann_middle(left, right, gravity)) {}
 
   FlowState at(double x, double, double t) const override {
     if (t <= 0) return x < at_ ? FlowState{left_.depth, left_.u, 0} : FlowState{right_.depth, right_.u, 0};
@@ -54,7 +55,8 @@ class Riemann : public Exact {
 }  // namespace
 
 RiemannMiddle riemann_middle(const RiemannState& left, const RiemannState& right, double gravity) {
-  const double cl = std::sqrt(gravity * left.depth), cr = std::sqrt(gravity * right.depth), gap = right.u - left.u;
+  const double cl = std::sqrt(gravity * left.depth), cr = std::sqrt(gravity * right.depth),
+               gap = right.u - left.u;
   const double both = 0.5 * (cl + cr) - 0.25 * gap;  // the celerity between two rarefactions
   if (both <= 0) return {0, 0.5 * (left.u + 2 * cl + right.u - 2 * cr)};
   double h = both * both / gravity;
@@ -68,7 +70,8 @@ RiemannMiddle riemann_middle(const RiemannState& left, const RiemannState& right
   return {h, 0.5 * (left.u + right.u + jump_to(h, right, gravity).value - jump_to(h, left, gravity).value)};
 }
 
-std::unique_ptr<Exact> riemann(const RiemannState& left, const RiemannState& right, double at, double gravity) {
+std::unique_ptr<Exact> riemann(const RiemannState& left, const RiemannState& right, double at,
+                               double gravity) {
   return std::make_unique<Riemann>(left, right, at, gravity);
 }
 

@@ -19,9 +19,7 @@ constexpr const char *state_file = "state.h5", *diverged_file = "diverged.h5";
 }  // namespace
 
 Driver::Driver(const Scene& scene, Method& method, RunOptions options)
-    : scene_(scene),
-      method_(method),
-      options_(std::move(options)),
+    : scene_(scene), method_(method), options_(std::move(options)),
       observers_(make_observers(scene, options_.directory)),
       progress_(options_.progress, options_.terminal, 0, scene.end_time) {}
 
@@ -47,9 +45,7 @@ bool Driver::run() {
       if (options_.each_step) options_.each_step(clock_);
     }
     for (const auto& one : observers_) one->finish(method_, clock_);
-  } catch (const Diverged& why) {
-    give_up(why);
-  }
+  } catch (const Diverged& why) { give_up(why); }
   write_state(state_file);
   progress_.end_line();
   return finished();
@@ -102,9 +98,7 @@ void Driver::give_up(const Diverged& why) {
     write_state(diverged_file);
     text += "\n  its state: " + path_in(options_.directory, diverged_file) +
             ", and the last step of particles.h5part";
-  } catch (const IoError& also) {
-    text += "\n  its state could not be written: " + std::string(also.what());
-  }
+  } catch (const IoError& also) { text += "\n  its state could not be written: " + std::string(also.what()); }
   throw Diverged(text);
 }
 

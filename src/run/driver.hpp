@@ -14,10 +14,10 @@
 namespace freshet {
 
 struct RunOptions {
-  std::string directory;                    // exists
-  std::FILE* progress = nullptr;            // nullptr: no progress lines
-  bool terminal = false;                    // progress goes to a terminal
-  const std::atomic<bool>* stop = nullptr;  // finish the step and leave when it becomes true
+  std::string directory;                             // exists
+  std::FILE* progress = nullptr;                     // nullptr: no progress lines
+  bool terminal = false;                             // progress goes to a terminal
+  const std::atomic<bool>* stop = nullptr;           // finish the step and leave when it becomes true
   std::function<void(const Clock&)> each_step = {};  // called after every step and what it brought
 };
 
@@ -29,7 +29,7 @@ class Driver {
   // The files that a run may leave in its directory, whatever the scene; folders too.
   static std::vector<std::string> files();
 
-  void begin();                                // a new run: files, first looks
+  void begin();  // a new run: files, first looks
   // Goes on; the method has its fields and scalars already. IoError where the checkpoint lacks something.
   void restore(const Checkpoint& checkpoint);
   // To the end of the scene (true) or until the stop flag (false); the state is written either way. If the

@@ -14,8 +14,7 @@ std::unique_ptr<Method> make_shallow(const Scene& scene) {
   if (scene.method == "sph-swe" && scene.water.start == Water::Start::relaxed)
     return std::make_unique<swe::ExplicitSph<D>>(scene, swe::relaxed_lattice<D>(scene));
   if (scene.method == "sph-swe") return std::make_unique<swe::ExplicitSph<D>>(scene);
-  if (scene.sisph.moving)
-    return std::make_unique<sisph::LagrangianSph<D>>(scene);
+  if (scene.sisph.moving) return std::make_unique<sisph::LagrangianSph<D>>(scene);
   return std::make_unique<sisph::EulerianSph<D>>(scene);
 }
 

@@ -1,9 +1,9 @@
 // The read-back of a scene for `freshet check`.
 #include <algorithm>
 
+#include "src/scene/read.hpp"
 #include "src/scene/toml/choices.hpp"
 #include "src/scene/toml/diagnostics.hpp"
-#include "src/scene/read.hpp"
 #include "src/text.hpp"
 
 namespace freshet {
@@ -37,7 +37,8 @@ std::string bed(const Scene& scene) {
 std::string friction(const std::optional<Manning>& manning) {
   if (!manning) return "none";
   if (!manning->map) return "Manning n = " + brief(manning->n) + " s/m^(1/3)";
-  return "Manning n: " + manning->description + ", the nearest of a lattice of " + brief(manning->step[0]) + " m";
+  return "Manning n: " + manning->description + ", the nearest of a lattice of " + brief(manning->step[0]) +
+         " m";
 }
 
 std::string water(const Scene& scene) {
@@ -46,7 +47,8 @@ std::string water(const Scene& scene) {
   std::string out =
       "spacing " + brief(water.spacing) + (equal_mass ? " m in the deepest water, equal masses" : " m");
   if (water.surface) out += ", from its surface";
-  if (water.disorder > 0) out += ", disorder " + brief(water.disorder) + " of it (seed " + std::to_string(water.seed) + ")";
+  if (water.disorder > 0)
+    out += ", disorder " + brief(water.disorder) + " of it (seed " + std::to_string(water.seed) + ")";
   return out + (water.velocity[0] ? ", moving" : ", at rest");
 }
 
@@ -54,8 +56,9 @@ std::string imposed(const std::string& what, const Series& series, const std::st
   if (series.t.empty()) return "";
   if (series.t.size() == 1) return ", " + what + ' ' + brief(series.value[0]) + ' ' + unit;
   const auto range = std::minmax_element(series.value.begin(), series.value.end());
-  return ", " + counted(series.t.size(), "row") + ", t " + brief(series.t.front()) + " to " + brief(series.t.back()) + " s, " +
-         what + ' ' + brief(*range.first) + " to " + brief(*range.second) + ' ' + unit;
+  return ", " + counted(series.t.size(), "row") + ", t " + brief(series.t.front()) + " to " +
+         brief(series.t.back()) + " s, " + what + ' ' + brief(*range.first) + " to " + brief(*range.second) +
+         ' ' + unit;
 }
 
 std::string boundary(const OpenBoundary& boundary, const Domain& domain) {
@@ -87,31 +90,35 @@ std::string transect(const Transect& line, const Domain& domain) {
   out += " at t = " + brief(line.time) + " s";
   if (!line.measured) return out;
   const Series& measured = *line.measured;
-  return out + ", measured " + counted(measured.t.size(), "row") + " from " + brief(measured.t.front()) + " to " +
-         brief(measured.t.back()) + " m";
+  return out + ", measured " + counted(measured.t.size(), "row") + " from " + brief(measured.t.front()) +
+         " to " + brief(measured.t.back()) + " m";
 }
 
 std::string sisph_numerics(const Scene& scene) {
   const Sisph& sisph = scene.sisph;
-  const std::string step = scene.time_step > 0 ? "time step " + brief(scene.time_step) + " s" : "celerity Courant number " + brief(sisph.courant);
-  return (sisph.moving ? "sisph, moving, " : "sisph, ") + name_of(sisph.kernel) + " kernel, l/dx " + brief(sisph.smoothing) +
-         ", theta " + brief(sisph.theta) + ", Picard " + std::to_string(sisph.picard) + ", " + step;
+  const std::string step = scene.time_step > 0 ? "time step " + brief(scene.time_step) + " s"
+                                               : "celerity Courant number " + brief(sisph.courant);
+  return (sisph.moving ? "sisph, moving, " : "sisph, ") + name_of(sisph.kernel) + " kernel, l/dx " +
+         brief(sisph.smoothing) + ", theta " + brief(sisph.theta) + ", Picard " +
+         std::to_string(sisph.picard) + ", " + step;
 }
 
 std::string fpm_numerics(const Scene& scene) {
   const Fpm& fpm = *scene.fpm;
-  return scene.method + ", support " + brief(fpm.support) + " dx, CFL " + brief(scene.cfl) + ", density " + brief(fpm.density) +
-         " kg/m3, viscosity " + brief(fpm.viscosity) + " m2/s, " + (fpm.slip ? "slip" : "no slip") + " at walls";
+  return scene.method + ", support " + brief(fpm.support) + " dx, CFL " + brief(scene.cfl) + ", density " +
+         brief(fpm.density) + " kg/m3, viscosity " + brief(fpm.viscosity) + " m2/s, " +
+         (fpm.slip ? "slip" : "no slip") + " at walls";
 }
 
 std::string numerics(const Scene& scene) {
   if (scene.method == "sisph") return sisph_numerics(scene);
   if (scene.fpm) return fpm_numerics(scene);
   const Sph& sph = scene.sph;
-  return scene.method + ", " + name_of(sph.kernel) + " kernel" + (sph.lattice_correction ? " (lattice correction)" : "") +
-         ", h/dx " + brief(sph.eta) + ", CFL " + brief(scene.cfl) + ", " + input::titled(sph.stabilisation) +
+  return scene.method + ", " + name_of(sph.kernel) + " kernel" +
+         (sph.lattice_correction ? " (lattice correction)" : "") + ", h/dx " + brief(sph.eta) + ", CFL " +
+         brief(scene.cfl) + ", " + input::titled(sph.stabilisation) +
          (sph.acceleration == Acceleration::classical ? ", classical acceleration"
-                                                            : ", variational acceleration");
+                                                      : ", variational acceleration");
 }
 
 std::string area(const AreaLimit& limit) {
@@ -132,7 +139,8 @@ std::string output(const Scene& scene) {
 std::string rasters(const Rasters& rasters) {
   std::string out = "cells of " + brief(rasters.spacing) + " m, ";
   out += rasters.what.empty() ? "no maps in time" : counted(rasters.what.size(), "map") + ' ';
-  if (!rasters.what.empty()) out += rasters.every > 0 ? "every " + brief(rasters.every) + " s" : "first and last";
+  if (!rasters.what.empty())
+    out += rasters.every > 0 ? "every " + brief(rasters.every) + " s" : "first and last";
   if (rasters.maxima) out += ", maxima and arrival above " + brief(rasters.arrival) + " m in every step";
   return out;
 }
@@ -157,7 +165,8 @@ std::vector<std::string> describe(const Scene& scene) {
   add("scene", scene.name + " (" + scene.file + ")");
   add("domain", extent(scene.domain));
   if (scene.fpm) {
-    add("bodies", counted(scene.fpm->bodies.size(), "piece") + " of water, dx " + brief(scene.water.spacing) + " m");
+    add("bodies",
+        counted(scene.fpm->bodies.size(), "piece") + " of water, dx " + brief(scene.water.spacing) + " m");
   } else {
     add("bed", bed(scene));
     add("friction", friction(scene.manning));
@@ -170,7 +179,8 @@ std::vector<std::string> describe(const Scene& scene) {
   for (const Transect& p : scene.profiles) add("profile", transect(p, scene.domain));
   add("time", "0 to " + brief(scene.end_time) + " s");
   add("method", numerics(scene));
-  if (scene.split) add("split", "into " + std::to_string(scene.split->into) + " from " + area(scene.split->area));
+  if (scene.split)
+    add("split", "into " + std::to_string(scene.split->into) + " from " + area(scene.split->area));
   if (scene.merge) add("merge", "below " + area(scene.merge->area));
   add("output", output(scene));
   if (scene.rasters) add("raster", rasters(*scene.rasters));

@@ -7,10 +7,10 @@
 #include <iterator>
 
 #include "src/errors.hpp"
-#include "src/scene/toml/overrides.hpp"
 #include "src/scene/sections/sections.hpp"
-#include "src/scene/toml/serialise.hpp"
 #include "src/scene/shapes/slope.hpp"
+#include "src/scene/toml/overrides.hpp"
+#include "src/scene/toml/serialise.hpp"
 
 namespace freshet {
 namespace {
@@ -28,18 +28,22 @@ void read_each(Table& root, const std::string& key, Scene& scene, Reader reader)
 
 // As below, for method "fpm".
 void read_fpm_sections(Table& root, Table& head, Scene& scene) {
-  Table domain = root.table("domain"), water = root.table("water"), fluid = root.table("fluid"), fpm = root.table("fpm");
+  Table domain = root.table("domain"), water = root.table("water"), fluid = root.table("fluid"),
+        fpm = root.table("fpm");
   Table time = root.table("time"), output = root.table("output"), limits = root.table("limits");
   scene.cfl = 0.15;                // of the support
   scene.limits.mass_error = 0.05;  // of the area: points come and go
   read_domain(domain, scene);
-  if (scene.domain.dimension == 1) head.error("method", "method \"fpm\" needs two dimensions", "domain.box = [x0, y0, x1, y1]");
+  if (scene.domain.dimension == 1)
+    head.error("method", "method \"fpm\" needs two dimensions", "domain.box = [x0, y0, x1, y1]");
   read_spacing(water, scene);
   read_fluid(fluid, scene);
   read_fpm(fpm, scene);
   read_periodic(domain, scene);
   read_each(root, "wall", scene, read_wall);
-  if (root.size_of("body") == 0) root.error("body", "the scene has no [[body]]: there is no water", "add [[body]] with a box, circle or polygon");
+  if (root.size_of("body") == 0)
+    root.error("body", "the scene has no [[body]]: there is no water",
+               "add [[body]] with a box, circle or polygon");
   read_each(root, "body", scene, read_body);
   read_each(root, "gauge", scene, read_gauge);
   read_time(time, {}, scene);
@@ -65,9 +69,11 @@ void read_sections(Table& root, Scene& scene) {
   read_split(split, scene);
   read_merge(merge, scene);
   const ComparePlan plan = read_compare(compare, scene);
-  // Exact solutions belong to the classical shallow-water equations; over a step the variational ones let too little water pass.
+  // Exact solutions belong to the classical shallow-water equations; over a step the variational ones let too
+  // little water pass.
   constexpr double step = 1.5;
-  if (!acceleration_named && (scene.compare.exact || steepest_slope(scene) > step)) scene.sph.acceleration = Acceleration::classical;
+  if (!acceleration_named && (scene.compare.exact || steepest_slope(scene) > step))
+    scene.sph.acceleration = Acceleration::classical;
   read_water_state(water, scene);
   read_time(time, plan, scene);
   read_each(root, "boundary", scene, read_boundary);
@@ -75,7 +81,8 @@ void read_sections(Table& root, Scene& scene) {
   note_leaks(root, scene);
   check_formulation(sisph, scene);
   if (scene.sph.well_balanced && !scene.boundaries.empty())
-    sph.error("well_balanced", "a well-balanced run needs a basin without open boundaries", "remove one of the two");
+    sph.error("well_balanced", "a well-balanced run needs a basin without open boundaries",
+              "remove one of the two");
   read_each(root, "gauge", scene, read_gauge);
   read_each(root, "runup", scene, read_run_up);
   read_each(root, "profile", scene, read_transect);
@@ -89,8 +96,9 @@ toml::table parse(const std::string& text, Diagnostics& diagnostics) {
     return toml::parse(std::string_view(text), std::string("0"));
   } catch (const toml::parse_error& error) {
     const toml::source_position at = error.source().begin;
-    diagnostics.error({0, static_cast<int>(at.line), static_cast<int>(at.column)}, std::string(error.description()),
-                      "a scene is TOML: each key once in a section, text in quotes, numbers without units, lists in [ ]");
+    diagnostics.error(
+        {0, static_cast<int>(at.line), static_cast<int>(at.column)}, std::string(error.description()),
+        "a scene is TOML: each key once in a section, text in quotes, numbers without units, lists in [ ]");
   }
   return {};
 }

@@ -21,14 +21,15 @@ Scene read_scene_text(const std::string& text, const std::string& file,
 
 // What a key of a scene may be.
 struct KeyNote {
-  std::string path;      // "water.spacing"; of tables in arrays their name or number, "boundary.0.type"
-  std::string what;      // "a number in m"
-  std::string rule;      // "positive"
-  std::string standard;  // its default, as a scene would write it, "required", or "" where it is not one value
+  std::string path;  // "water.spacing"; of tables in arrays their name or number, "boundary.0.type"
+  std::string what;  // "a number in m"
+  std::string rule;  // "positive"
+  std::string
+      standard;  // its default, as a scene would write it, "required", or "" where it is not one value
 };
 
-// Every key whose value the reader asked this scene for, named or not, in the order of reading. Of keys that exclude
-// each other, and of those of a choice, that are the ones that the scene names.
+// Every key whose value the reader asked this scene for, named or not, in the order of reading. Of keys that
+// exclude each other, and of those of a choice, that are the ones that the scene names.
 std::vector<KeyNote> known_keys(const std::string& path, const std::vector<std::string>& overrides = {});
 
 // What was understood, one line each: extent, bed, water, boundaries, stations, numerics, notes.

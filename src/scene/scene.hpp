@@ -9,19 +9,19 @@
 #include <string>
 #include <vector>
 
-#include "kernels/fpm/pressure/pressure_scheme.hpp"
 #include "kernels/boundaries/open/states.hpp"
-#include "kernels/sisph/velocity/momentum_form.hpp"
+#include "kernels/boundaries/walls/point.hpp"
+#include "kernels/boundaries/walls/wall_kind.hpp"
+#include "kernels/fpm/pressure/pressure_scheme.hpp"
 #include "kernels/sisph/moving/paths.hpp"
+#include "kernels/sisph/velocity/momentum_form.hpp"
 #include "kernels/smoothing/smoothing.hpp"
 #include "kernels/swe/force/stabilisation.hpp"
-#include "kernels/boundaries/walls/wall_kind.hpp"
-#include "kernels/boundaries/walls/point.hpp"
 
 namespace freshet {
 
-using Function = std::function<double(double, double)>;   // of x, y
-class Exact;                                              // src/reference/exact.hpp
+using Function = std::function<double(double, double)>;  // of x, y
+class Exact;                                             // src/reference/exact.hpp
 
 // A piecewise linear function of time; constant before its first and after its last entry.
 struct Series {
@@ -36,10 +36,10 @@ struct Domain {
 };
 
 struct Bed {
-  Function elevation;             // m, upwards; absent = flat at zero: no bed pass
-  double spacing = 0;             // m, of the bottom particles (the bed lattice)
-  double filter = 0;              // m, standard deviation of the smoothing of the bed (0 = interpolated as given)
-  std::string description;        // "expression", "file bathymetry.asc (393 x 244 nodes)": for the read-back
+  Function elevation;       // m, upwards; absent = flat at zero: no bed pass
+  double spacing = 0;       // m, of the bottom particles (the bed lattice)
+  double filter = 0;        // m, standard deviation of the smoothing of the bed (0 = interpolated as given)
+  std::string description;  // "expression", "file bathymetry.asc (393 x 244 nodes)": for the read-back
   std::array<double, 2> range{};  // m, lowest and highest value met on the bed lattice or in the file
   int nodata = 0;                 // cells without a value in the file
 };
@@ -54,29 +54,30 @@ struct Manning {
 };
 
 struct Water {
-  double spacing = 0;                         // m, particle spacing dx
+  double spacing = 0;  // m, particle spacing dx
   // relaxed: cells, then pushed by their own pressure until they lie still along slanting and curved walls
   enum class Start { cells, equal_mass, relaxed } start = Start::cells;
-  Function depth;                             // m; particles are placed where it is > wet_above
-  Function surface;                           // m; absent where the scene gives the depth: depth = surface - bed
-  std::array<Function, 2> velocity;           // m/s; absent = at rest
-  double wet_above = 0;                       // m
-  double disorder = 0;                        // x dx: each particle starts up to so far off its cell's centre along each axis
-  int seed = 1;                               // of the disorder
+  Function depth;                    // m; particles are placed where it is > wet_above
+  Function surface;                  // m; absent where the scene gives the depth: depth = surface - bed
+  std::array<Function, 2> velocity;  // m/s; absent = at rest
+  double wet_above = 0;              // m
+  double disorder = 0;  // x dx: each particle starts up to so far off its cell's centre along each axis
+  int seed = 1;         // of the disorder
 };
 
 struct Wall {
-  // m; the water is on its left (1-D: one point; the water is on the domain's side). A closed line, whose last point is its
-  // first, also says where water may start: inside it if it runs counter-clockwise, else outside.
+  // m; the water is on its left (1-D: one point; the water is on the domain's side). A closed line, whose
+  // last point is its first, also says where water may start: inside it if it runs counter-clockwise, else
+  // outside.
   std::vector<Point> line;
 };
 
 struct OpenBoundary {
   std::string name;
-  // m, two points or more (no sharp bends); the water is on its left. 1-D: (x, 1), (x, 0) at the left end and (x, 0), (x, 1) at
-  // the right end.
+  // m, two points or more (no sharp bends); the water is on its left. 1-D: (x, 1), (x, 0) at the left end and
+  // (x, 0), (x, 1) at the right end.
   std::vector<Point> line;
-  OpenLaw law;         // kernels/boundaries/open/states.hpp: what follows time is in `imposed`
+  OpenLaw law;  // kernels/boundaries/open/states.hpp: what follows time is in `imposed`
   struct Imposed {
     std::string what;  // "level"
     std::string unit;  // "m"; discharges m3/s (1-D: m2/s); velocities and discharges inwards
@@ -88,7 +89,8 @@ struct OpenBoundary {
   OpenLaw at(double time) const;
 };
 
-// What a gauge can show: its name in scenes and files, its unit there, and those of tables of errors and of peaks.
+// What a gauge can show: its name in scenes and files, its unit there, and those of tables of errors and of
+// peaks.
 struct Measurand {
   const char *name, *unit;
   struct Scale {
@@ -100,7 +102,8 @@ struct Measurand {
 struct Gauge {
   std::string name;
   Point at{};
-  // Method "fpm" only, but for elevation: pressure at the point; front: the water's largest x, wherever it is.
+  // Method "fpm" only, but for elevation: pressure at the point; front: the water's largest x, wherever it
+  // is.
   enum class What { elevation, pressure, front } what = What::elevation;
   std::optional<Series> measured;  // of the same measurand, times increasing
   double peak_after = 0;           // s, peaks and arrivals are taken after this time
@@ -108,26 +111,27 @@ struct Gauge {
   const Measurand& measurand() const { return measurands[static_cast<std::size_t>(what)]; }
 
   static constexpr std::array<Measurand, 3> measurands{{{"elevation", "m", {"mm", 1e-3}, {"cm", 1e-2}},
-                                                       {"pressure", "Pa", {"Pa", 1}, {"Pa", 1}},
-                                                       {"front", "m", {"mm", 1e-3}, {"cm", 1e-2}}}};
+                                                        {"pressure", "Pa", {"Pa", 1}, {"Pa", 1}},
+                                                        {"front", "m", {"mm", 1e-3}, {"cm", 1e-2}}}};
 };
 
 struct RunUp {
   std::string name;
   Point at{};
-  double radius = 0.05;      // m
-  double min_depth = 0.002;  // m
+  double radius = 0.05;                           // m
+  double min_depth = 0.002;                       // m
   std::optional<std::array<double, 2>> measured;  // m, lowest and highest
 };
 
 // The surface along a line at one time.
 struct Transect {
   std::string name;
-  std::array<Point, 2> line{};     // m, from and to
+  std::array<Point, 2> line{};  // m, from and to
   bool one_dimensional = false;
   double time = 0;                 // s
   double spacing = 0;              // m, of the points that are written
-  std::optional<Series> measured;  // free-surface elevation [m] over the place on the line [m]: 1-D x, 2-D distance from line[0]
+  std::optional<Series> measured;  // free-surface elevation [m] over the place on the line [m]: 1-D x, 2-D
+                                   // distance from line[0]
   Point at(double place) const;    // the point of the line there
 };
 
@@ -140,12 +144,14 @@ struct Sph {
   swe::AnyStabilisation stabilisation = swe::LaxFriedrichsMuscl{};
   Acceleration acceleration = Acceleration::variational;
   double newton_tolerance = 1e-5;  // of the relative density residual
-  double h_floor = 0.8;            // x h0; the reader's default is 1.6^(-1/D): what a density 1.6 times the initial one gives
-  double h_cap = 3.0;              // x h0
+  double h_floor =
+      0.8;  // x h0; the reader's default is 1.6^(-1/D): what a density 1.6 times the initial one gives
+  double h_cap = 3.0;  // x h0
   WallKind walls = WallKind::automatic;
-  bool slip = true;            // walls; false: they also hold the tangential velocity back
-  bool mixed = false;          // pairs in single precision, what is made of their sums in double
-  bool well_balanced = false;  // still water over any bed stays at rest to round-off (kernels/swe/force/well_balanced.hpp)
+  bool slip = true;    // walls; false: they also hold the tangential velocity back
+  bool mixed = false;  // pairs in single precision, what is made of their sums in double
+  bool well_balanced =
+      false;  // still water over any bed stays at rest to round-off (kernels/swe/force/well_balanced.hpp)
 };
 
 // The semi-implicit method.
@@ -156,20 +162,22 @@ struct Sisph {
   };
   double smoothing = 1.5;  // l / dx
   KernelChoice kernel;
-  double theta = 0.55;     // implicitness
+  double theta = 0.55;  // implicitness
   int picard = 2;
   sisph::MomentumForm momentum;
-  bool closure = true;     // pair areas closed: sum_j A_ij n_ij = 0
-  bool exact_slopes = true;  // for linear fields (Krongauz and Belytschko); false: normalised by Shepard's sum alone
-  bool recomputed = false;   // at rest: the coefficients a_ij of the free surface's matrix, in every product, not kept
-  bool moving = false;       // L: particles move with the water, one mass each; E: they are at rest, wet or dry
-  sisph::ParticlePath path;    // moving
-  double jump = 0.25;          // moving: |v_i - v_j| dt / dx of neighbours at most
+  bool closure = true;  // pair areas closed: sum_j A_ij n_ij = 0
+  bool exact_slopes =
+      true;  // for linear fields (Krongauz and Belytschko); false: normalised by Shepard's sum alone
+  bool recomputed =
+      false;  // at rest: the coefficients a_ij of the free surface's matrix, in every product, not kept
+  bool moving = false;  // L: particles move with the water, one mass each; E: they are at rest, wet or dry
+  sisph::ParticlePath path;  // moving
+  double jump = 0.25;        // moving: |v_i - v_j| dt / dx of neighbours at most
   Solver cg{1e-6, 2000}, newton{1e-6, 60};
-  double courant = 1;      // celerity x dt / dx, where the scene names no time.dt
-  double viscosity = 0;    // m2/s, lateral, of the depth's mean (at rest)
-  bool slip = true;        // walls; false: they hold the tangential velocity, too (with viscosity)
-  double advection = 0;    // |v| dt / dx at most; 0 = by the momentum: none (semi-Lagrangian), 0.7 (mass flux)
+  double courant = 1;    // celerity x dt / dx, where the scene names no time.dt
+  double viscosity = 0;  // m2/s, lateral, of the depth's mean (at rest)
+  bool slip = true;      // walls; false: they hold the tangential velocity, too (with viscosity)
+  double advection = 0;  // |v| dt / dx at most; 0 = by the momentum: none (semi-Lagrangian), 0.7 (mass flux)
 };
 
 // A limit on the area that a particle covers, in spacing^D; it may differ by region.
@@ -193,32 +201,33 @@ struct Split {
 };
 
 struct Merge {
-  AreaLimit area;     // particles that both cover less merge
-  double reach = 1;   // x h: how far apart at most
-  double relax = 3;   // h / c
+  AreaLimit area;    // particles that both cover less merge
+  double reach = 1;  // x h: how far apart at most
+  double relax = 3;  // h / c
 };
 
 // The incompressible Finite Pointset Method: a flow in a vertical plane, y upwards.
 struct Body {
-  std::vector<Point> outline;         // m, counter-clockwise, not closed; empty: a circle
-  bool lattice = false;               // the outline is an upright rectangle
-  Point centre{};                     // m, of the circle
+  std::vector<Point> outline;  // m, counter-clockwise, not closed; empty: a circle
+  bool lattice = false;        // the outline is an upright rectangle
+  Point centre{};              // m, of the circle
   double radius = 0;
-  std::array<Function, 2> velocity;   // m/s; absent = at rest
+  std::array<Function, 2> velocity;  // m/s; absent = at rest
 };
 
 struct Fpm {
-  double density = 1000;   // kg/m3
-  double viscosity = 0;    // m2/s, kinematic
-  Point force{0, -9.81};   // m/s2
-  double support = 3.2;    // h0 / dx
-  double hole = 0.8;       // x dx: an empty circle larger than this gets a point
-  Function grading;        // x dx, the spacing by place: 1 to 4; absent = 1 everywhere
-  bool by_neighbours = false;  // each point's support from the number of its neighbours, `support` being that of a lattice
+  double density = 1000;  // kg/m3
+  double viscosity = 0;   // m2/s, kinematic
+  Point force{0, -9.81};  // m/s2
+  double support = 3.2;   // h0 / dx
+  double hole = 0.8;      // x dx: an empty circle larger than this gets a point
+  Function grading;       // x dx, the spacing by place: 1 to 4; absent = 1 everywhere
+  bool by_neighbours =
+      false;  // each point's support from the number of its neighbours, `support` being that of a lattice
   fpm::PressureScheme scheme;
   bool implicit_viscosity = false;  // it does not limit the step then
-  bool slip = true;        // walls; false: they also hold the tangential velocity
-  double tolerance = 1e-9;  // of the pressure equation
+  bool slip = true;                 // walls; false: they also hold the tangential velocity
+  double tolerance = 1e-9;          // of the pressure equation
   std::array<bool, 2> periodic{};
   std::vector<Body> bodies;
 };
@@ -231,25 +240,26 @@ struct Compare {
   double window = 0;                   // s, ... evenly spread over the last `window` seconds before the end
   std::vector<double> times;           // s, increasing: all errors are also taken at these
   Function where;                      // errors count where it is not 0; absent = everywhere
-  bool steady = false;                 // the exact flow does not change: largest speed and rate of change are recorded
-  std::string description;             // "stoker: 10 m | 5 m, dam at 1000 m": for the read-back
+  bool steady = false;      // the exact flow does not change: largest speed and rate of change are recorded
+  std::string description;  // "stoker: 10 m | 5 m, dam at 1000 m": for the read-back
 };
 
 struct Output {
-  double every = 0;         // s, particle output (0 = first and last state only)
-  double gauges_every = 0;  // s (0 = as `every`)
-  double checkpoint_every = 600;  // s of wall clock
+  double every = 0;                                // s, particle output (0 = first and last state only)
+  double gauges_every = 0;                         // s (0 = as `every`)
+  double checkpoint_every = 600;                   // s of wall clock
   std::optional<std::vector<std::string>> fields;  // of particles.h5part; absent: as ParticleFile has them
 };
 
 // Maps on a grid of square cells that covers the domain.
 struct Rasters {
   enum class Quantity { depth, surface, u, v, speed };
-  double spacing = 0;           // m, of the cells
-  double every = 0;             // s (0 = first and last state only)
+  double spacing = 0;  // m, of the cells
+  double every = 0;    // s (0 = first and last state only)
   std::vector<Quantity> what;
-  bool maxima = false;          // largest depth, speed and their product, arrival and last wetness, looked at in every step
-  double arrival = 0.01;        // m, a cell is reached where the depth exceeds it
+  bool maxima =
+      false;  // largest depth, speed and their product, arrival and last wetness, looked at in every step
+  double arrival = 0.01;  // m, a cell is reached where the depth exceeds it
 };
 
 struct Limits {
@@ -263,11 +273,11 @@ struct Scene {
   std::string file;  // path as given, for messages
   std::string text;  // the scene as read, overrides applied, data files absolute: written into every result
   std::vector<std::string> notes;  // what the reader decided on its own, one line each
-  double gravity = 9.81;             // m/s2
+  double gravity = 9.81;           // m/s2
   std::optional<Manning> manning;
   double cfl = 0.4;
-  double time_step = 0;              // s, fixed (sisph); 0 = follows from the flow
-  double end_time = 0;               // s
+  double time_step = 0;  // s, fixed (sisph); 0 = follows from the flow
+  double end_time = 0;   // s
   Domain domain;
   Bed bed;
   Water water;

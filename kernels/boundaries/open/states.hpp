@@ -6,8 +6,8 @@
 // critical flow passes where only one value is imposed.
 //
 // To add a law, write its struct, name it in OpenLaw and write its operator() in laws.hpp. name and title are
-// what a scene says and what the program shows, keys(k) tells what a scene gives for it (kernels/choice.hpp), values
-// that follow time first in the order in which set() takes them [SI].
+// what a scene says and what the program shows, keys(k) tells what a scene gives for it (kernels/choice.hpp),
+// values that follow time first in the order in which set() takes them [SI].
 #pragma once
 #include <variant>
 
@@ -17,8 +17,8 @@ namespace freshet {
 
 // The water before one row of the line.
 struct InnerState {
-  double depth = 0;   // m, 0 = dry
-  double inward = 0;  // m/s
+  double depth = 0;     // m, 0 = dry
+  double inward = 0;    // m/s
   double arriving = 0;  // m/s, -|u| + 2 c of the slow means
 };
 
@@ -84,8 +84,8 @@ struct ImposedDischarge {
   KOKKOS_INLINE_FUNCTION ExteriorState operator()(const InnerState& inner, const OpenStrip& strip) const;
 };
 
-// The state of the water outside: imposed whole where it comes in supercritically; else its invariant u + 2 c enters and R
-// leaves. At rest it is a level that waves leave over.
+// The state of the water outside: imposed whole where it comes in supercritically; else its invariant u + 2 c
+// enters and R leaves. At rest it is a level that waves leave over.
 struct ImposedState {
   static constexpr const char *name = "state", *title = "imposed state";
   double stage = 0;        // m, level, or depth
@@ -96,14 +96,16 @@ struct ImposedState {
     k.one_in_time({"level", "depth"}, "m", above_bed);
     k.in_time("velocity", "m/s");
   }
-  KOKKOS_INLINE_FUNCTION void set(double stage_now, double inward_now) { stage = stage_now, inward = inward_now; }
+  KOKKOS_INLINE_FUNCTION void set(double stage_now, double inward_now) {
+    stage = stage_now, inward = inward_now;
+  }
   KOKKOS_INLINE_FUNCTION ExteriorState operator()(const InnerState& inner, const OpenStrip& strip) const;
 };
 
-// Zero gradient: what enters, u + 2 c, is that of the inner state itself, of which the slow mean keeps the scheme's own errors
-// at the line from feeding back; R leaves. Nothing flows in but for as long as a wave's trough takes to leave: a mean inflow,
-// which nothing outside would bound, meets water that flows against it and ends. Where a level is given, still water of that
-// level lies outside.
+// Zero gradient: what enters, u + 2 c, is that of the inner state itself, of which the slow mean keeps the
+// scheme's own errors at the line from feeding back; R leaves. Nothing flows in but for as long as a wave's
+// trough takes to leave: a mean inflow, which nothing outside would bound, meets water that flows against it
+// and ends. Where a level is given, still water of that level lies outside.
 struct Transmissive {
   static constexpr const char *name = "transmissive", *title = "transmissive";
   bool levelled = false;
@@ -116,9 +118,11 @@ struct Transmissive {
   KOKKOS_INLINE_FUNCTION ExteriorState operator()(const InnerState& inner, const OpenStrip& strip) const;
 };
 
-using OpenLaw = std::variant<ImposedLevel, IncomingWave, ImposedVelocity, ImposedDischarge, ImposedState, Transmissive>;
+using OpenLaw =
+    std::variant<ImposedLevel, IncomingWave, ImposedVelocity, ImposedDischarge, ImposedState, Transmissive>;
 
-// Depth x inward velocity x width of lines, and its size: of an instant m3/s (1-D: m2/s), summed over time m3 (m2).
+// Depth x inward velocity x width of lines, and its size: of an instant m3/s (1-D: m2/s), summed over time m3
+// (m2).
 struct OpenFlux {
   double net = 0, gross = 0;
 };
@@ -132,9 +136,9 @@ struct Portion {
   bool wet;
 };
 
-// How a discharge is shared among rows, per width [1/m]; the sum of share x width is 1. By conveyance: in proportion to the
-// depth^(5/3) under the mean level of the wet rows (the depths of single rows would feed back on themselves); equal per width
-// where all rows are dry. Row after row: a line has few.
+// How a discharge is shared among rows, per width [1/m]; the sum of share x width is 1. By conveyance: in
+// proportion to the depth^(5/3) under the mean level of the wet rows (the depths of single rows would feed
+// back on themselves); equal per width where all rows are dry. Row after row: a line has few.
 class DischargeShares {
  public:
   DischargeShares() = default;

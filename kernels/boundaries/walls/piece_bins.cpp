@@ -62,8 +62,7 @@ PieceBins::PieceBins(const std::vector<Piece>& pieces, double finest)
   if (pieces.empty()) return;
   span(pieces, finest);
   std::vector<int> first(static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_) + 1, 0);
-  for (const Piece& s : pieces)
-    for_each_crossed(s, [&](int c) { ++first[static_cast<std::size_t>(c) + 1]; });
+  for (const Piece& s : pieces) for_each_crossed(s, [&](int c) { ++first[static_cast<std::size_t>(c) + 1]; });
   for (std::size_t c = 1; c < first.size(); ++c) first[c] += first[c - 1];
   std::vector<int> list(static_cast<std::size_t>(first.back())), free = first;
   for (int k = 0; k < size_; ++k)

@@ -110,10 +110,10 @@ class PieceBins {
   int size_ = 0, nx_ = 0, ny_ = 0;
   static constexpr double infinite = std::numeric_limits<double>::infinity();
   Box bounds_{infinite, -infinite, infinite, -infinite};  // m; of nothing, which no box reaches
-  double per_cell_ = 0;  // 1/m
-  double slack_ = 0;     // m, by which pieces count as thicker than they are: more than places round by
-  Field<int> first_;     // entry of cell i + j nx; nx ny + 1 values
-  Field<int> list_;      // pieces, cell by cell
+  double per_cell_ = 0;                                   // 1/m
+  double slack_ = 0;  // m, by which pieces count as thicker than they are: more than places round by
+  Field<int> first_;  // entry of cell i + j nx; nx ny + 1 values
+  Field<int> list_;   // pieces, cell by cell
 };
 
 template <class Pieces, int D>

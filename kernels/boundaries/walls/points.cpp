@@ -20,11 +20,11 @@ WallPoint corner_point(const Vec<double, 2>& x, const Piece& s, const Piece& t, 
   if (length < 1e-9) return {{x.x, x.y}, {1, 0, 1}, 1, piece};
   const double nx = sum.x / length, ny = sum.y / length, cosine = dot(s.normal, t.normal);
   const double across = std::fmin(1.0, 1 + cosine), along = std::fmin(1.0, 1 - cosine);
-  return {{x.x, x.y},
-          {across * nx * nx + along * ny * ny, (across - along) * nx * ny,
-           across * ny * ny + along * nx * nx},
-          1,
-          piece};
+  return {
+      {x.x, x.y},
+      {across * nx * nx + along * ny * ny, (across - along) * nx * ny, across * ny * ny + along * nx * nx},
+      1,
+      piece};
 }
 
 // A point `along` the piece from a, `depth` behind it.

@@ -25,9 +25,9 @@ struct WallGeometry {
 
 struct WallOptions {
   WallKind kind;
-  double spacing;     // m, dx of the water: points lie dx/2 apart (rows: dx)
-  double reach;       // m, how deep rows go behind the wall
-  bool slip = true;   // false: the wall also mirrors the tangential velocity
+  double spacing;    // m, dx of the water: points lie dx/2 apart (rows: dx)
+  double reach;      // m, how deep rows go behind the wall
+  bool slip = true;  // false: the wall also mirrors the tangential velocity
 };
 
 // Lines with the water on their left. inside: a point of the water, which tells the side of a 1-D wall.

@@ -9,10 +9,10 @@ namespace freshet {
 
 // A straight piece from a to b. In 1-D both are the wall, and the normal points to the water.
 struct Piece {
-  Vec<double, 2> a{}, b{};              // m
-  Vec<double, 2> tangent{}, normal{};   // unit, from a to b and to its left; 0 where a and b are the same
-  double length = 0;                    // m
-  int before = -1, after = -1;          // the pieces joined at a and at b, -1: free ends
+  Vec<double, 2> a{}, b{};             // m
+  Vec<double, 2> tangent{}, normal{};  // unit, from a to b and to its left; 0 where a and b are the same
+  double length = 0;                   // m
+  int before = -1, after = -1;         // the pieces joined at a and at b, -1: free ends
 };
 
 // A place as a piece sees it.
@@ -83,8 +83,8 @@ KOKKOS_FORCEINLINE_FUNCTION bool crosses_ray(const Vec<double, 2>& a, const Vec<
 }
 
 // ---- On the host ------------------------------------------------------------------------------------------
-bool meet(const Point& p, const Point& q, double tolerance);    // m
-bool is_closed(const Polyline& line, double tolerance = 0);     // m, between its ends
+bool meet(const Point& p, const Point& q, double tolerance);  // m
+bool is_closed(const Polyline& line, double tolerance = 0);   // m, between its ends
 
 Piece piece_between(const Point& a, const Point& b);  // of one point: without direction
 // Adds a line's pieces, joined to each other.
@@ -95,12 +95,12 @@ std::vector<Piece> pieces_of(const std::vector<Polyline>& lines, double toleranc
 // water.
 double turn(const Vec<double, 2>& from, const Vec<double, 2>& to);
 
-double distance(const Point& p, const Piece& piece);    // m
+double distance(const Point& p, const Piece& piece);  // m
 // m, to a line's nearest piece; of one point: to that; of none: 1e300.
 double distance(const Point& p, const Polyline& line);
 
 // Of polygons, whose last corner is joined to the first; it may be given twice.
-double signed_area(const Polyline& polygon);               // m2, positive counter-clockwise
+double signed_area(const Polyline& polygon);  // m2, positive counter-clockwise
 bool crosses_itself(const Polyline& polygon);
 bool encloses(const Polyline& polygon, const Point& p);  // low edges count as inside, high ones as outside
 

@@ -1,15 +1,16 @@
 #include "kernels/boundaries/walls/walls.hpp"
 
 #include "cellgrid/parallel/assign.hpp"
-#include "cellgrid/simd/box.hpp"
 #include "cellgrid/parallel/launch.hpp"
 #include "cellgrid/parallel/on_device.hpp"
+#include "cellgrid/simd/box.hpp"
 
 namespace freshet {
 namespace {
 
 void number(const Field<int>& id, int n) {
-  launch("walls::number", Range(0, n), KOKKOS_LAMBDA(int k) { id(k) = k; });
+  launch(
+      "walls::number", Range(0, n), KOKKOS_LAMBDA(int k) { id(k) = k; });
 }
 
 Box box_of(const std::vector<Polyline>& lines, double beyond) {
@@ -24,14 +25,16 @@ Box box_of(const std::vector<Polyline>& lines, double beyond) {
 template <int D>
 Walls<D>::Walls(const std::vector<Polyline>& lines, const WallOptions& options, const Point& inside,
                 double support)
-    : order_(D, options.spacing, box_of(lines, 8 * options.spacing)), near_(32, "walls::list", false), kind_(options.kind),
+    : order_(D, options.spacing, box_of(lines, 8 * options.spacing)), near_(32, "walls::list", false),
+      kind_(options.kind),
       // A virtual particle lies twice as far away as its wall point; a neighbour's image may stand right
       // behind the wall.
       reach_(support / kind_.stretch.factor[0]), depth_(2 * options.spacing) {
   const WallGeometry g = lay_walls(D, lines, options, inside);
   points_ = FieldSet(static_cast<int>(g.points.size()));
   const auto add = [&](const char* name, const auto& value) {
-    upload(points_.real(name, "m", Carry::sort), g.points.size(), [&](size_t k) { return value(g.points[k]); });
+    upload(points_.real(name, "m", Carry::sort), g.points.size(),
+           [&](size_t k) { return value(g.points[k]); });
   };
   add("x", [](const WallPoint& w) { return w.x[0]; });
   add("pxx", [](const WallPoint& w) { return w.p[0]; });
@@ -41,7 +44,8 @@ Walls<D>::Walls(const std::vector<Polyline>& lines, const WallOptions& options, 
     add("pxy", [](const WallPoint& w) { return w.p[1]; });
     add("pyy", [](const WallPoint& w) { return w.p[2]; });
   }
-  upload(points_.integer("piece", "1", Carry::sort), g.points.size(), [&](size_t k) { return g.points[k].piece; });
+  upload(points_.integer("piece", "1", Carry::sort), g.points.size(),
+         [&](size_t k) { return g.points[k].piece; });
   number(points_.integer("id", "1", Carry::sort), points_.size());
   order_.sort(points_);
   // Water alone decides what is near. With tiles of that size (most clusters' reach) water off the walls sees
@@ -91,7 +95,8 @@ struct FeltLength {
   double reach;  // x h
 
   KOKKOS_INLINE_FUNCTION bool walls_in_reach(const Box& b) const {
-    return walls.largest_h(b.xlo, b.xhi, b.ylo, b.yhi) > 0 || walls.support < reach * water.largest_h(b.xlo, b.xhi, b.ylo, b.yhi);
+    return walls.largest_h(b.xlo, b.xhi, b.ylo, b.yhi) > 0 ||
+           walls.support < reach * water.largest_h(b.xlo, b.xhi, b.ylo, b.yhi);
   }
   KOKKOS_INLINE_FUNCTION void operator()(int c) const {
     const Lanes me = clusters(c);
@@ -113,7 +118,8 @@ template <int D>
 void Walls<D>::find(const ClusterSet& clusters, const ListRequest<D>& water, const NeighbourView& near) {
   Field<double> h = water.h;
   if (kind_.mirror) {
-    if (felt_h_.extent(0) < h.extent(0)) felt_h_ = Field<double>(Kokkos::ViewAllocateWithoutInitializing("walls.felt_h"), h.extent(0));
+    if (felt_h_.extent(0) < h.extent(0))
+      felt_h_ = Field<double>(Kokkos::ViewAllocateWithoutInitializing("walls.felt_h"), h.extent(0));
     const double reach = reach_ * (1 + water.margin);
     launch("walls::felt_h", balanced(clusters.size()),
            FeltLength<D>{clusters, near, water.x, h, felt_h_, water.source_rows, order_.rows(), reach});
@@ -136,7 +142,8 @@ KOKKOS_FORCEINLINE_FUNCTION bool any_behind(const Piece& s, const Vec<Lane, D>& 
 
 // Whether some particle of the cluster may be behind a wall: all lanes at once, since hardly any is.
 template <int D>
-KOKKOS_INLINE_FUNCTION bool may_be_behind(const WallView<D>& walls, int cluster, const Vec<Lane, D>& here, double deepest) {
+KOKKOS_INLINE_FUNCTION bool may_be_behind(const WallView<D>& walls, int cluster, const Vec<Lane, D>& here,
+                                          double deepest) {
   constexpr double ties = 1e-6;  // and rounding
   int last = -1;
   bool behind = false;
@@ -172,7 +179,8 @@ void Walls<D>::reflect(const ClusterSet& clusters, const VecField<double, D>& x,
   const WallView<D> walls = view();
   const double deepest = depth_;
   const ClusterSet sets = clusters;
-  launch("walls::reflect", Range(0, clusters.size()), KOKKOS_LAMBDA(int c) {
+  launch(
+      "walls::reflect", Range(0, clusters.size()), KOKKOS_LAMBDA(int c) {
         if (walls.near.length(c) == 0) return;
         const Lanes me = sets(c);
         if (!may_be_behind<D>(walls, c, me.load(x), deepest)) return;

@@ -1,18 +1,20 @@
 // Solid walls along polylines, the water on their left. In all kinds but `mirror` a wall is a set of virtual
 // particles that copy the state of the fluid particle i that looks at them, with the velocity mirrored,
 // v_k = v_i - 2 P v_i: a wall term depends on i and the geometry alone.
-//   vbp     x_k = x_i - 2 (x_i - x_w) for wall points x_w half a spacing apart, m_k = m_i (h0/h_i)^(D-1)   (thesis 1.2)
-//   mvbp    also x_k = x_i - 4 (x_i - x_w), and two points more at corners (thesis 1.3; (1.8) corrected:
+//   vbp     x_k = x_i - 2 (x_i - x_w) for wall points x_w half a spacing apart, m_k = m_i (h0/h_i)^(D-1)
+//   (thesis 1.2) mvbp    also x_k = x_i - 4 (x_i - x_w), and two points more at corners (thesis 1.3; (1.8)
+//   corrected:
 //           docs/formulas/swe.md (S30))
-//   rows    fixed points on rows dx/2, 3 dx/2, ... behind the wall, m_k = rho_i x the area that a point stands for
-//   mirror  i's image in each straight piece of wall nearby sees i's real neighbours (the same as i seeing their images).
-//           Exact for straight walls and right corners whatever the particles' positions; wrong at corners of more than
-//           180 degrees. Costs one more walk over the neighbours of the clusters at a wall.
+//   rows    fixed points on rows dx/2, 3 dx/2, ... behind the wall, m_k = rho_i x the area that a point
+//   stands for mirror  i's image in each straight piece of wall nearby sees i's real neighbours (the same as
+//   i seeing their images).
+//           Exact for straight walls and right corners whatever the particles' positions; wrong at corners of
+//           more than 180 degrees. Costs one more walk over the neighbours of the clusters at a wall.
 //   none    nothing but the reflection of what crosses the line
 #pragma once
 #include "cellgrid/particles/clusters.hpp"
-#include "kernels/smoothing/smoothing.hpp"
 #include "kernels/boundaries/walls/points.hpp"
+#include "kernels/smoothing/smoothing.hpp"
 
 namespace freshet {
 
@@ -63,7 +65,9 @@ struct Image {
     const Vec<Lane, 2> x{r[0][0], r[0][1]}, y{r[1][0], r[1][1]};
     return {quadratic(m, x), dot(x, m * y), quadratic(m, y)};
   }
-  KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 1> operator()(const Vec<Lane, 1>& a) const { return turn(a) + Vec<Lane, 1>{shift[0]}; }
+  KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 1> operator()(const Vec<Lane, 1>& a) const {
+    return turn(a) + Vec<Lane, 1>{shift[0]};
+  }
   KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 2> operator()(const Vec<Lane, 2>& a) const {
     return turn(a) + Vec<Lane, 2>{shift[0], shift[1]};
   }
@@ -75,14 +79,14 @@ struct WallView {
   bool mirror = false;
   bool rows = false;
   Stretch stretch;
-  VecField<double, D> x;           // m, wall points
-  SymField<double, D> projector;   // P: onto the directions that the wall reflects
-  Field<double> share;             // of the virtual mass: about 1; rows: the area of each point [m2] (1-D: m)
-  NeighbourView near;              // wall points by cluster
-  Field<int> piece;                // of each wall point
+  VecField<double, D> x;          // m, wall points
+  SymField<double, D> projector;  // P: onto the directions that the wall reflects
+  Field<double> share;            // of the virtual mass: about 1; rows: the area of each point [m2] (1-D: m)
+  NeighbourView near;             // wall points by cluster
+  Field<int> piece;               // of each wall point
   Kokkos::View<WallPiece*, Memory> pieces;
-  PieceBins bins;                  // of the pieces
-  double deepest = 0;              // m, how far behind a wall a particle is still caught
+  PieceBins bins;      // of the pieces
+  double deepest = 0;  // m, how far behind a wall a particle is still caught
 
   // The position, mirrored in the wall that it stands behind; again in the one behind which that puts it.
   KOKKOS_INLINE_FUNCTION Vec<double, D> inside(Vec<double, D> p) const {
@@ -100,7 +104,9 @@ struct WallView {
     return D == 1 ? m : m * h0_per_h;
   }
   // d ln m_k / d ln rho_i: how far virtual masses follow the particle's own depth.
-  KOKKOS_FORCEINLINE_FUNCTION double follows_depth() const { return !on || mirror ? 0.0 : rows ? 1.0 : (D - 1.0) / D; }
+  KOKKOS_FORCEINLINE_FUNCTION double follows_depth() const {
+    return !on || mirror ? 0.0 : rows ? 1.0 : (D - 1.0) / D;
+  }
   // How often a virtual particle at `s` times the distance of its wall point pushes. Rows push like real
   // particles, whose own sums feel i too; the others as the energy of i alone asks, since dx_k/dx_i = 1 - s.
   KOKKOS_FORCEINLINE_FUNCTION double pushes(double s) const { return rows ? 2.0 : s; }
@@ -161,7 +167,8 @@ struct WallSums {
 // kernels' density pass: what the walls add to particle i's sums. mass is m_k.
 template <class K, class V, int D>
 KOKKOS_INLINE_FUNCTION void add_wall(const K& kernel, const Stretch& stretch, const Vec<V, D>& to_wall,
-                                     const Vec<V, D>& normal_velocity, const V& inv_h, const V& mass, WallSums<V, D>& sum) {
+                                     const Vec<V, D>& normal_velocity, const V& inv_h, const V& mass,
+                                     WallSums<V, D>& sum) {
   const V r2 = dot(to_wall, to_wall) + tiny_square;
   const V inv_r = rsqrt(r2), r = r2 * inv_r;
   const V per_volume = mass * power<D>(inv_h);

@@ -7,8 +7,10 @@
 
 namespace freshet::fpm {
 
-// The middle of what an edge of the cell stands for, seen from the point at p: half-way to a neighbour, the foot on a wall.
-KOKKOS_INLINE_FUNCTION Vec<double, 2> middle_of(const PointCell& c, const Cloud& cloud, const Vec<double, 2>& p, int edge) {
+// The middle of what an edge of the cell stands for, seen from the point at p: half-way to a neighbour, the
+// foot on a wall.
+KOKKOS_INLINE_FUNCTION Vec<double, 2> middle_of(const PointCell& c, const Cloud& cloud,
+                                                const Vec<double, 2>& p, int edge) {
   if (edge >= 0) return {0.5 * c.around.x[edge], 0.5 * c.around.y[edge]};
   const Side& s = cloud.tank.sides(Cell::segment_of(edge));
   return -foot_on(s, p).off * s.normal;

@@ -1,6 +1,7 @@
-// A point's Voronoi cell as a convex polygon around the origin, made by clipping a square with half-planes. A corner between
-// the bisectors of neighbours a and b is the circumcentre of the Delaunay triangle (point, a, b), its distance the
-// circumradius. The square holds the circle of radius `half`: the cell reaches beyond that circle iff a corner does.
+// A point's Voronoi cell as a convex polygon around the origin, made by clipping a square with half-planes. A
+// corner between the bisectors of neighbours a and b is the circumcentre of the Delaunay triangle (point, a,
+// b), its distance the circumradius. The square holds the circle of radius `half`: the cell reaches beyond
+// that circle iff a corner does.
 #pragma once
 #include "cellgrid/simd/lanes.hpp"
 #include "cellgrid/simd/vec.hpp"
@@ -8,13 +9,13 @@
 namespace freshet::fpm {
 
 struct Cell {
-  static constexpr int most = 32;   // corners
-  static constexpr int open = -1;   // edge of the square; edges of walls are numbered downwards from -2
+  static constexpr int most = 32;  // corners
+  static constexpr int open = -1;  // edge of the square; edges of walls are numbered downwards from -2
 
   double x[most], y[most];  // m, corners, counter-clockwise
-  int edge[most];           // what cut the edge from corner k to the next one: a neighbour's number, a wall or open
+  int edge[most];  // what cut the edge from corner k to the next one: a neighbour's number, a wall or open
   int size = 4;
-  bool overflow = false;    // a cut was left out because it would have made too many corners
+  bool overflow = false;  // a cut was left out because it would have made too many corners
 
   explicit KOKKOS_INLINE_FUNCTION Cell(double half) {
     const double sx[4] = {-half, half, half, -half}, sy[4] = {-half, -half, half, half};
@@ -41,7 +42,8 @@ struct Cell {
     return 0.5 * twice;
   }
 
-  // Keeps what lies at u . d <= c (c >= 0). Corners within a billionth of the line stay: on lattices four points share a circle.
+  // Keeps what lies at u . d <= c (c >= 0). Corners within a billionth of the line stay: on lattices four
+  // points share a circle.
   KOKKOS_INLINE_FUNCTION void clip(const Vec<double, 2>& d, double c, int label) {
     double beyond[most];
     const double slack = 1e-9 * (c + (d.x * d.x + d.y * d.y));

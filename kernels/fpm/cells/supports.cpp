@@ -26,12 +26,16 @@ struct Distances {
 
 }  // namespace
 
-double neighbours_wanted(double support) { return pi * support * support * (1 - std::exp(-steepness)) / steepness; }
+double neighbours_wanted(double support) {
+  return pi * support * support * (1 - std::exp(-steepness)) / steepness;
+}
 
 SupportReport fit_supports(const Cloud& cloud, int n, const Field<double>& h, const SupportRule& rule) {
   const double wanted = neighbours_wanted(rule.support);
   SupportReport report;
-  Kokkos::parallel_reduce("fpm::supports", Range(0, n), KOKKOS_LAMBDA(int i, int& unsettled) {
+  Kokkos::parallel_reduce(
+      "fpm::supports", Range(0, n),
+      KOKKOS_LAMBDA(int i, int& unsettled) {
         const double h0 = rule.support * cloud.spacing_at(i), low = rule.least * h0, high = rule.most * h0;
         Distances near;
         cloud.near.for_each(at(cloud.near.x, i), high, [&](int, const Vec<double, 2>&, double r2) {
@@ -45,7 +49,8 @@ SupportReport fit_supports(const Cloud& cloud, int n, const Field<double>& h, co
         }
         h(i) = now;
         unsettled += change > rule.settled * now;
-      }, report.unsettled);
+      },
+      report.unsettled);
   return report;
 }
 

@@ -10,9 +10,9 @@
 namespace freshet::fpm {
 
 struct SupportRule {
-  double support = 3.2;               // h0 / dx
-  double least = 0.8, most = 1.5;     // x h0
-  double settled = 1e-3;              // relative change of h; a point that enters at r = h counts 9e-4
+  double support = 3.2;            // h0 / dx
+  double least = 0.8, most = 1.5;  // x h0
+  double settled = 1e-3;           // relative change of h; a point that enters at r = h counts 9e-4
   int iterations = 20;
 };
 

@@ -5,7 +5,8 @@
 namespace freshet::fpm {
 namespace {
 
-// Looks at one point's cell for places where a point is missing, and keeps the one of the greatest kind, then size.
+// Looks at one point's cell for places where a point is missing, and keeps the one of the greatest kind, then
+// size.
 struct Searcher {
   Cloud cloud;
   VoronoiRule rule;
@@ -17,12 +18,15 @@ struct Searcher {
     double dx;  // m
     Gap best;
 
-    KOKKOS_FORCEINLINE_FUNCTION void offer(int kind, double size, const Vec<double, 2>& from_p, int side = -1) {
+    KOKKOS_FORCEINLINE_FUNCTION void offer(int kind, double size, const Vec<double, 2>& from_p,
+                                           int side = -1) {
       if (size <= 1 || kind < best.kind || (kind == best.kind && size <= best.size)) return;
       best = {kind, side, p + from_p, size};
     }
     KOKKOS_FORCEINLINE_FUNCTION Vec<double, 2> corner(int k) const { return {c.cell.x[k], c.cell.y[k]}; }
-    KOKKOS_FORCEINLINE_FUNCTION Vec<double, 2> to(int number) const { return {c.around.x[number], c.around.y[number]}; }
+    KOKKOS_FORCEINLINE_FUNCTION Vec<double, 2> to(int number) const {
+      return {c.around.x[number], c.around.y[number]};
+    }
   };
 
   KOKKOS_FORCEINLINE_FUNCTION double half(int i) const { return rule.surface * cloud.spacing_at(i); }
@@ -39,7 +43,8 @@ struct Searcher {
       const double area = 0.5 * (da.x * db.y - da.y * db.x);
       l.offer(Gap::in_bulk, area / (rule.area * l.dx * l.dx), (1.0 / 3) * (da + db));
     } else if (dot(da, db) > 0 && dot(da, da - db) > 0 && dot(db, db - da) > 0) {
-      // Only where it holds its own circumcentre is that the middle of a hole; of others it may lie outside the water.
+      // Only where it holds its own circumcentre is that the middle of a hole; of others it may lie outside
+      // the water.
       l.offer(Gap::in_bulk, root(r2) / (rule.hole * l.dx), l.corner(k));
     }
   }
@@ -106,7 +111,8 @@ VoronoiReport Voronoi::find(const Cloud& cloud, int n, const Field<int>& surface
   const auto missing = missing_;
   const Searcher searcher{cloud, rule_};
   VoronoiReport r;
-  Kokkos::parallel_reduce("fpm::voronoi", Range(0, n),
+  Kokkos::parallel_reduce(
+      "fpm::voronoi", Range(0, n),
       KOKKOS_LAMBDA(int i, int& surfaces, int& holes, int& failures) {
         const double half = searcher.half(i);
         const PointCell c = cell_of(cloud, i, half);
@@ -118,8 +124,11 @@ VoronoiReport Voronoi::find(const Cloud& cloud, int n, const Field<int>& surface
         if (flags_only) return;
         missing(i) = searcher.search(i, c);
         holes += missing(i).kind != Gap::none;
-      }, r.surface, r.missing, r.failed);
-  if (seen.x.extent(0) > 0) launch("fpm::remember_air", Range(0, n), KOKKOS_LAMBDA(int i) { put(seen, i, at(open, i)); });
+      },
+      r.surface, r.missing, r.failed);
+  if (seen.x.extent(0) > 0)
+    launch(
+        "fpm::remember_air", Range(0, n), KOKKOS_LAMBDA(int i) { put(seen, i, at(open, i)); });
   return r;
 }
 

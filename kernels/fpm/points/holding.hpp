@@ -1,5 +1,5 @@
-// Where points on walls may be: on their side, in a corner, or free again beyond the wall's end; and which fluid points have
-// come to a wall.
+// Where points on walls may be: on their side, in a corner, or free again beyond the wall's end; and which
+// fluid points have come to a wall.
 #pragma once
 #include "kernels/fpm/tank.hpp"
 
@@ -10,7 +10,8 @@ struct Standing {
   int kind, side;
 };
 
-// A point that slid past an end of its side: round the corner to the next side, into the corner, or off the wall.
+// A point that slid past an end of its side: round the corner to the next side, into the corner, or off the
+// wall.
 KOKKOS_INLINE_FUNCTION Standing past_end(const TankView& tank, const Standing& here, double along) {
   const Side& s = tank.sides(here.side);
   const bool at_b = along > s.length;
@@ -22,8 +23,10 @@ KOKKOS_INLINE_FUNCTION Standing past_end(const TankView& tank, const Standing& h
   return {tank.place(next, at_b ? rest : t.length - rest), on_wall, next};
 }
 
-// reach [m]: how far behind a wall a point may have come in one step. close [m]: fluid points this near before it stand on it too.
-KOKKOS_INLINE_FUNCTION Standing hold(const TankView& tank, const Standing& here, double reach, double close = 0) {
+// reach [m]: how far behind a wall a point may have come in one step. close [m]: fluid points this near
+// before it stand on it too.
+KOKKOS_INLINE_FUNCTION Standing hold(const TankView& tank, const Standing& here, double reach,
+                                     double close = 0) {
   if (here.kind == in_corner) return {tank.sides(here.side).b, in_corner, here.side};
   if (here.kind == on_wall) {
     const Side& s = tank.sides(here.side);

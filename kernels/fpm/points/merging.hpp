@@ -13,11 +13,14 @@ struct Closeness {
   int id;
 };
 
-// My fate. Surfaces and walls hold their points, two of a kind become one half way. near: a surface point sits on the wall's.
-KOKKOS_INLINE_FUNCTION Fate fate_of(const TankView& tank, const Closeness& me, const Closeness& other, bool near) {
+// My fate. Surfaces and walls hold their points, two of a kind become one half way. near: a surface point
+// sits on the wall's.
+KOKKOS_INLINE_FUNCTION Fate fate_of(const TankView& tank, const Closeness& me, const Closeness& other,
+                                    bool near) {
   if (me.kind == in_fluid && other.kind != in_fluid) return !me.surface || near ? drop : keep;
   if (me.kind != in_fluid && other.kind == in_fluid) return keep;
-  if (me.kind == in_corner || other.kind == in_corner) return me.kind == other.kind || me.kind == in_corner ? keep : drop;
+  if (me.kind == in_corner || other.kind == in_corner)
+    return me.kind == other.kind || me.kind == in_corner ? keep : drop;
   if (me.side != other.side) {  // two sides of a bend
     const bool joined = tank.sides(me.side).after == other.side || tank.sides(me.side).before == other.side;
     return joined && me.id > other.id ? drop : keep;
@@ -26,7 +29,8 @@ KOKKOS_INLINE_FUNCTION Fate fate_of(const TankView& tank, const Closeness& me, c
   return me.id < other.id ? move : drop;
 }
 
-// Total order on pairs: nearer first, then the smaller of the two ids, then the larger. The same for both of a pair.
+// Total order on pairs: nearer first, then the smaller of the two ids, then the larger. The same for both of
+// a pair.
 struct Closest {
   double r2 = 1e300;
   int low = 0, high = 0, partner = -1;

@@ -14,12 +14,13 @@
 namespace freshet::fpm {
 
 struct PointRule {
-  double spacing;           // m, dx
-  double support;           // m, h0: of the MLS that new points take their fields from; with the spacing where that varies
-  double merge = 0.2;       // x support: pairs closer than this are merged
-  double land = 0.25;       // x spacing: surface points closer than this to a wall point are taken away
-  double apart = 0.8;       // x spacing: of two new points closer than this only one is inserted
-  bool slip = true;         // false: walls hold the tangential velocity too
+  double spacing;  // m, dx
+  double support;  // m, h0: of the MLS that new points take their fields from; with the spacing where that
+                   // varies
+  double merge = 0.2;  // x support: pairs closer than this are merged
+  double land = 0.25;  // x spacing: surface points closer than this to a wall point are taken away
+  double apart = 0.8;  // x spacing: of two new points closer than this only one is inserted
+  bool slip = true;    // false: walls hold the tangential velocity too
   VoronoiRule voronoi{};
 };
 
@@ -34,8 +35,8 @@ struct PointCount {
 };
 
 struct PointReport {
-  int surface = 0;      // points on the free surface
-  int failed = 0;       // cells that did not fit their buffers
+  int surface = 0;  // points on the free surface
+  int failed = 0;   // cells that did not fit their buffers
   PointCount step;
 };
 
@@ -84,9 +85,9 @@ class PointKeeper {
   Transfer transfer_;
   Field<int> partner_, fate_;  // of each point
   Field<int> owner_;           // the point that each place copies
-  VecField<double, 2> where_;                  // m, places: of merged pairs, then of new points
+  VecField<double, 2> where_;  // m, places: of merged pairs, then of new points
   Field<int> place_kind_, place_side_;
-  Field<double> place_h_, place_slack_;        // m; of Transfer
+  Field<double> place_h_, place_slack_;  // m; of Transfer
   Field<double> value_;
 };
 

@@ -13,10 +13,12 @@ KOKKOS_FORCEINLINE_FUNCTION Terms<double, 2> scaled_basis(const Vec<double, 2>& 
 
 void Transfer::find(const Near& near, const VecField<double, 2>& places, const Field<double>& h, int count) {
   if (factors_.extent_int(0) < count)
-    factors_ = decltype(factors_)(Kokkos::ViewAllocateWithoutInitializing("fpm.transfer"), static_cast<std::size_t>(count + count / 2));
+    factors_ = decltype(factors_)(Kokkos::ViewAllocateWithoutInitializing("fpm.transfer"),
+                                  static_cast<std::size_t>(count + count / 2));
   near_ = near, places_ = places, count_ = count, h_ = h;
   const auto factors = factors_;
-  launch("fpm::transfer_factors", Range(0, count), KOKKOS_LAMBDA(int k) {
+  launch(
+      "fpm::transfer_factors", Range(0, count), KOKKOS_LAMBDA(int k) {
         Moments<double, 2> moments;
         const double per_h = 1 / h(k);
         near.for_each(at(places, k), h(k), [&](int, const Vec<double, 2>& d, double r2) {
@@ -26,12 +28,14 @@ void Transfer::find(const Near& near, const VecField<double, 2>& places, const F
       });
 }
 
-void Transfer::apply(const Field<double>& field, const Field<double>& value, const Field<double>& slack) const {
+void Transfer::apply(const Field<double>& field, const Field<double>& value,
+                     const Field<double>& slack) const {
   const Near near = near_;
   const VecField<double, 2> places = places_;
   const auto factors = factors_;
   const Field<double> h = h_;
-  launch("fpm::transfer", Range(0, count_), KOKKOS_LAMBDA(int k) {
+  launch(
+      "fpm::transfer", Range(0, count_), KOKKOS_LAMBDA(int k) {
         double sum = 0, low = 1e300, high = -1e300;
         const double per_h = 1 / h(k);
         near.for_each(at(places, k), h(k), [&](int j, const Vec<double, 2>& d, double r2) {

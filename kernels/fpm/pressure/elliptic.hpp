@@ -1,10 +1,11 @@
 // Poisson's equation on scattered points (docs/formulas/fpm.md (F9) to (F12)): at each point the fitted
 // polynomial obeys, beside its neighbours' values, lap psi = f and on walls n . grad psi = g, each with
 // weight 100:
-//   G = sum w m m^T + 100 r_p r_p^T + 100 r_b r_b^T,  G beta = e1,  r_p = [0, 0, 0, 1, 0, 1],  r_b = [0, nx, ny, 0, 0, 0]
-//   psi_i - sum_j w_j (m_j . beta) psi_j = 100 (r_p . beta) h^2 f + 100 (r_b . beta) h g
-// Where psi is given the row is psi_i = that. Without any such point constants are free: the system is A + 1 1^T / n, which has the
-// bordered system's solution, and the mean is taken off. Solved by BiCGStab, preconditioned on a mesh, or where supports differ by bins.
+//   G = sum w m m^T + 100 r_p r_p^T + 100 r_b r_b^T,  G beta = e1,  r_p = [0, 0, 0, 1, 0, 1],  r_b = [0, nx,
+//   ny, 0, 0, 0] psi_i - sum_j w_j (m_j . beta) psi_j = 100 (r_p . beta) h^2 f + 100 (r_b . beta) h g
+// Where psi is given the row is psi_i = that. Without any such point constants are free: the system is A + 1
+// 1^T / n, which has the bordered system's solution, and the mean is taken off. Solved by BiCGStab,
+// preconditioned on a mesh, or where supports differ by bins.
 #pragma once
 #include "kernels/fpm/stencils/stencils.hpp"
 #include "kernels/linear/bicgstab.hpp"
@@ -18,7 +19,7 @@ enum PoissonRow : int { row_equation = 0, row_flux = 1, row_value = 2 };  // flu
 
 template <int D>
 struct PoissonPlaces {
-  Field<int> row;             // PoissonRow
+  Field<int> row;              // PoissonRow
   VecField<double, D> normal;  // unit, of points with a flux
 };
 
@@ -40,8 +41,10 @@ class Poisson {
   // The rows, and the levels of the preconditioner. rows: the order of the points.
   void assemble(const StencilView<D>& stencils, const Rows& rows, const PoissonPlaces<D>& places);
 
-  // psi holds the first guess. floor: a residual of psi (root of the sum of squares) that is always good enough.
-  PoissonReport solve(const PoissonData& data, const Field<double>& psi, const linear::BiCgStabOptions& options);
+  // psi holds the first guess. floor: a residual of psi (root of the sum of squares) that is always good
+  // enough.
+  PoissonReport solve(const PoissonData& data, const Field<double>& psi,
+                      const linear::BiCgStabOptions& options);
 
   bool singular() const { return singular_; }
   const linear::ClusterMatrix& matrix() const { return matrix_; }

@@ -12,7 +12,8 @@ struct FindSources {
 
   KOKKOS_INLINE_FUNCTION void operator()(int c) const {
     const Lanes me = stencils.around.clusters(c);
-    const Vec<Lane, 2> du = stencils.gradient(c, flow.v_star.x), dv = stencils.gradient(c, flow.v_star.y), n = me.load(flow.normal);
+    const Vec<Lane, 2> du = stencils.gradient(c, flow.v_star.x), dv = stencils.gradient(c, flow.v_star.y),
+                       n = me.load(flow.normal);
     Vec<Lane, 2> force = broadcast(rule.force);
     if (rule.viscosity > 0) force += Lane(rule.viscosity) * stencils.laplacian(c, flow.v);
     me.store(flow.source, Lane(-rule.density) * (du.x * du.x + 2.0 * du.y * dv.x + dv.y * dv.y));
@@ -28,9 +29,12 @@ PoissonReport Projection::pressure_of_flow(const Flow& flow, const Field<double>
   stencils_.fit(flow.v.x, flow.v_star.x);
   stencils_.fit(flow.v.y, flow.v_star.y);
   const bool slip = rule_.slip;
-  launch("fpm::flow_walls", Range(0, flow.points), KOKKOS_LAMBDA(int i) { put(flow.v_star, i, held(flow, i, at(flow.v_star, i), slip)); });
+  launch(
+      "fpm::flow_walls", Range(0, flow.points),
+      KOKKOS_LAMBDA(int i) { put(flow.v_star, i, held(flow, i, at(flow.v_star, i), slip)); });
   launch("fpm::flow_sources", Range(0, view.around.clusters.size()), FindSources{view, rule_, flow});
-  launch("fpm::flow_guess", Range(0, flow.points), KOKKOS_LAMBDA(int i) {
+  launch(
+      "fpm::flow_guess", Range(0, flow.points), KOKKOS_LAMBDA(int i) {
         pressure(i) = flow.p(i);
         flow.value(i) = 0;
       });

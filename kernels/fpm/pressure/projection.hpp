@@ -3,9 +3,10 @@
 // step), c0 = (1 + r)^2 / (1 + 2 r), c1 = -r^2 / (1 + 2 r), tau = dt (1 + r) / (1 + 2 r):
 //   q = fitted p, 0 on the surface;  v* = c0 v + c1 v_old + tau (-grad q / rho + nu lap v + f)
 //   lap phi = rho (div v* - expansion) / tau;  walls: n . grad phi = rho n . v* / tau;  surface: phi = -q
-//   v = v* - tau grad phi / rho, at walls held;  p = q + phi;  filtered: v next to walls and surface towards its fit
-// Viscosity taken implicitly: v* = ... + tau nu lap v* (viscosity.hpp). The term - rho nu div v* that (5.8) has in p then is left out: with it
-// still water is not stable (e-fold in 0.15 s at nu = 1 m2/s).
+//   v = v* - tau grad phi / rho, at walls held;  p = q + phi;  filtered: v next to walls and surface towards
+//   its fit
+// Viscosity taken implicitly: v* = ... + tau nu lap v* (viscosity.hpp). The term - rho nu div v* that (5.8)
+// has in p then is left out: with it still water is not stable (e-fold in 0.15 s at nu = 1 m2/s).
 #pragma once
 #include "kernels/fpm/pressure/elliptic.hpp"
 #include "kernels/fpm/pressure/pressure_scheme.hpp"
@@ -16,13 +17,14 @@
 namespace freshet::fpm {
 
 struct FlowRule {
-  double density = 1000;      // kg/m3
-  double viscosity = 0;       // m2/s
-  Vec<double, 2> force{};     // m/s2
+  double density = 1000;   // kg/m3
+  double viscosity = 0;    // m2/s
+  Vec<double, 2> force{};  // m/s2
   PressureScheme scheme;
-  bool slip = true;           // walls; false: they hold the tangential velocity too
-  double tolerance = 1e-9;    // of the pressure equation: of its right side, or 10 x this of the flow's velocities
-  bool implicit = false;      // viscosity
+  bool slip = true;  // walls; false: they hold the tangential velocity too
+  double tolerance =
+      1e-9;  // of the pressure equation: of its right side, or 10 x this of the flow's velocities
+  bool implicit = false;  // viscosity
 };
 
 // A flow's fields; scratch: those below the line.
@@ -54,7 +56,8 @@ struct Flow {
   }
 };
 
-// The velocity [m/s] of point i that walls leave of v: without its part through the wall, nothing in corners and where walls do not slip.
+// The velocity [m/s] of point i that walls leave of v: without its part through the wall, nothing in corners
+// and where walls do not slip.
 KOKKOS_FORCEINLINE_FUNCTION Vec<double, 2> held(const Flow& flow, int i, const Vec<double, 2>& v, bool slip) {
   if (flow.kind(i) == in_fluid) return v;
   const Vec<double, 2> n = at(flow.normal, i);
@@ -65,17 +68,19 @@ KOKKOS_FORCEINLINE_FUNCTION Vec<double, 2> held(const Flow& flow, int i, const V
 struct Backward {
   double c0, c1, tau;
   Backward(double dt, double ratio)
-      : c0((1 + ratio) * (1 + ratio) / (1 + 2 * ratio)), c1(-ratio * ratio / (1 + 2 * ratio)), tau(dt * (1 + ratio) / (1 + 2 * ratio)) {}
+      : c0((1 + ratio) * (1 + ratio) / (1 + 2 * ratio)), c1(-ratio * ratio / (1 + 2 * ratio)),
+        tau(dt * (1 + ratio) / (1 + 2 * ratio)) {}
 };
 
 struct ProjectionReport {
   PoissonReport poisson;
   linear::BiCgStabReport viscosity;  // where it is implicit
-  int poor = 0;  // points whose neighbours do not determine all derivatives
-  int limited = 0;  // points whose speed was held to the largest around (spray.hpp)
+  int poor = 0;                      // points whose neighbours do not determine all derivatives
+  int limited = 0;                   // points whose speed was held to the largest around (spray.hpp)
 };
 
-// x += dt (v + r/2 (v - v_old)), to second order where the accelerations of this step are those of the last; wrapped into the period.
+// x += dt (v + r/2 (v - v_old)), to second order where the accelerations of this step are those of the last;
+// wrapped into the period.
 void advect(const Flow& flow, const Period& period, double dt, double ratio);
 
 // The fastest point [m/s].
@@ -86,11 +91,13 @@ class Projection {
   Projection(const FlowRule& rule, const TankView& tank) : rule_(rule), tank_(tank) {}
 
   // The points must be sorted, listed and flagged.
-  ProjectionReport advance(const Neighbourhood<2>& around, const Rows& rows, const Flow& flow, const Backward& time);
+  ProjectionReport advance(const Neighbourhood<2>& around, const Rows& rows, const Flow& flow,
+                           const Backward& time);
 
   // The pressure [Pa] that goes with the velocities as they are, of the points of the last step:
   //   lap p = - rho (grad v : grad v^T),  walls: n . grad p = rho n . (f + nu lap v),  surface: p = 0
-  // The step's own p holds besides what takes off, within one step, the divergence that contacts, new points and flags brought: impulses over dt.
+  // The step's own p holds besides what takes off, within one step, the divergence that contacts, new points
+  // and flags brought: impulses over dt.
   PoissonReport pressure_of_flow(const Flow& flow, const Field<double>& pressure);
 
   // Whether these are the points of the last step.

@@ -3,7 +3,8 @@
 namespace freshet::fpm {
 namespace {
 
-constexpr double reach = 0.75;  // x support: contact lines and corners of lattices have three inner points as near
+constexpr double reach =
+    0.75;  // x support: contact lines and corners of lattices have three inner points as near
 constexpr double enough = 1.5;  // inner points
 constexpr double slack = 1e-9;  // of the speed squared: round-off is no change
 
@@ -13,7 +14,8 @@ struct Limited {
   int changed = 0;
 };
 
-KOKKOS_INLINE_FUNCTION Limited limited(const Neighbourhood<2>& around, const Flow& flow, const Vec<double, 2>& kick, int c) {
+KOKKOS_INLINE_FUNCTION Limited limited(const Neighbourhood<2>& around, const Flow& flow,
+                                       const Vec<double, 2>& kick, int c) {
   const Lanes me = around.clusters(c);
   const Vec<Lane, 2> xi = me.load(flow.x), n = me.load(flow.normal), free = me.load(flow.v_star);
   const Vec<Lane, 2> after = free - dot(free, n) * n;  // walls hold that part
@@ -27,7 +29,8 @@ KOKKOS_INLINE_FUNCTION Limited limited(const Neighbourhood<2>& around, const Flo
     most2 = larger(most2, select(close, Lane(larger(dot(v, v), dot(kicked, kicked))), Lane(0.0)));
   });
   const auto thin = inner < Lane(enough), fast = (1 + slack) * most2 < speed2;
-  const Lane slower = select(thin, select(fast, root(most2 / larger(speed2, Lane(1e-300))), Lane(1.0)), Lane(1.0));
+  const Lane slower =
+      select(thin, select(fast, root(most2 / larger(speed2, Lane(1e-300))), Lane(1.0)), Lane(1.0));
   Limited result{slower * after};
   for (int l = 0; l < me.count; ++l) result.changed += lane_of(slower, l) < 1;
   return result;
@@ -38,11 +41,14 @@ KOKKOS_INLINE_FUNCTION Limited limited(const Neighbourhood<2>& around, const Flo
 int limit_spray(const Neighbourhood<2>& around, const Flow& flow, const Vec<double, 2>& force, double tau) {
   int count = 0;
   const Vec<double, 2> kick = tau * force;
-  Kokkos::parallel_reduce("fpm::limit_spray", Range(0, around.clusters.size()), KOKKOS_LAMBDA(int c, int& sum) {
+  Kokkos::parallel_reduce(
+      "fpm::limit_spray", Range(0, around.clusters.size()),
+      KOKKOS_LAMBDA(int c, int& sum) {
         const Limited now = limited(around, flow, kick, c);
         around.clusters(c).store(flow.v_star, now.v);
         sum += now.changed;
-      }, count);
+      },
+      count);
   return count;
 }
 

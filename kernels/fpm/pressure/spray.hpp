@@ -8,7 +8,8 @@
 
 namespace freshet::fpm {
 
-// Limits v_star, the velocities after the pressure's part, by the speeds of v and v + tau force. Returns how many points it changed.
+// Limits v_star, the velocities after the pressure's part, by the speeds of v and v + tau force. Returns how
+// many points it changed.
 int limit_spray(const Neighbourhood<2>& around, const Flow& flow, const Vec<double, 2>& force, double tau);
 
 }  // namespace freshet::fpm

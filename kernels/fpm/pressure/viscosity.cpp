@@ -24,7 +24,8 @@ struct AssembleViscousRows {
     RowParts parts;
     for (int l = 0; l < lanes; ++l) {
       const int i = me.particle(l), kind = places.kind(i);
-      const bool held = kind == in_corner || (kind == on_wall && !places.slip), flux = !held && (kind == on_wall || places.surface(i));
+      const bool held = kind == in_corner || (kind == on_wall && !places.slip),
+                 flux = !held && (kind == on_wall || places.surface(i));
       if (held) set_lane(parts.free, l, 0.0);
       if (flux) set_lane(parts.flux, l, 1.0);
       parts.any_flux = parts.any_flux || flux;
@@ -48,8 +49,10 @@ struct AssembleViscousRows {
     const Vec<Lane, 2> wall = me.load(places.normal);
     const auto on_a_wall = Lane(0.5) < dot(wall, wall);
     const Lane per_length = rsqrt(dot(inwards, inwards) + Lane(1e-200));
-    const Vec<Lane, 2> n{select(on_a_wall, wall.x, per_length * inwards.x), select(on_a_wall, wall.y, per_length * inwards.y)};
-    const Lane per_h = 1.0 / me.load(stencils.around.h), spread = k * per_h * per_h, scale = 1.0 / (1.0 + spread);
+    const Vec<Lane, 2> n{select(on_a_wall, wall.x, per_length * inwards.x),
+                         select(on_a_wall, wall.y, per_length * inwards.y)};
+    const Lane per_h = 1.0 / me.load(stencils.around.h), spread = k * per_h * per_h,
+               scale = 1.0 / (1.0 + spread);
     const Terms<Lane, 2> r_p{{scale, Lane(0.0), Lane(0.0), -spread * scale, Lane(0.0), -spread * scale}};
     moments.add(Lane(equation_weight), r_p);
     moments.add(Lane(equation_weight), {{Lane(0.0), n.x, n.y, Lane(0.0), Lane(0.0), Lane(0.0)}});
@@ -64,7 +67,8 @@ struct AssembleViscousRows {
     FluxRow flux{};
     if (parts.any_flux) flux = flux_row(c, me);
     Lane sum{0.0};
-    stencils.around.for_each(c, [&](int, const Terms<Lane, 2>& m, const Lane& w) { sum += w * of_slopes<Lane, 2>(m, lap); });
+    stencils.around.for_each(
+        c, [&](int, const Terms<Lane, 2>& m, const Lane& w) { sum += w * of_slopes<Lane, 2>(m, lap); });
     const Lane per_diagonal = 1.0 / (1.0 + k * sum), direct = parts.free - parts.flux;
     int n = 0;
     stencils.around.for_each(c, [&](int, const Terms<Lane, 2>& m, const Lane& w) {
@@ -82,17 +86,21 @@ void ImplicitViscosity::assemble(const StencilView<2>& stencils, double k) {
   const Neighbourhood<2>& around = stencils.around;
   const int n = around.points;
   matrix_.lay_out(around.clusters, around.near, n);
-  if (per_b_.extent_int(0) < n + lanes) per_b_ = Field<double>("fpm.viscous_rows", static_cast<size_t>(n + n / 2 + lanes));
+  if (per_b_.extent_int(0) < n + lanes)
+    per_b_ = Field<double>("fpm.viscous_rows", static_cast<size_t>(n + n / 2 + lanes));
   for (Field<double>* f : {&b_, &x_}) reserve(*f, "fpm.viscous", 2 * n + lanes);
-  launch("fpm::viscous_rows", Range(0, around.clusters.size()), AssembleViscousRows{stencils, places_, matrix_, per_b_, k});
+  launch("fpm::viscous_rows", Range(0, around.clusters.size()),
+         AssembleViscousRows{stencils, places_, matrix_, per_b_, k});
 }
 
 void ImplicitViscosity::set_right_side(const VecField<double, 2>& v, const VecField<double, 2>& start) {
   const int n = matrix_.rows;
   const ViscousPlaces places = places_;
   const Field<double> b = b_, x = x_, per_b = per_b_;
-  launch("fpm::viscous_side", Range(0, n), KOKKOS_LAMBDA(int i) {
-        const Vec<double, 2> full = at(v, i), normal = at(places.normal, i), across = dot(full, normal) * normal;
+  launch(
+      "fpm::viscous_side", Range(0, n), KOKKOS_LAMBDA(int i) {
+        const Vec<double, 2> full = at(v, i), normal = at(places.normal, i),
+                             across = dot(full, normal) * normal;
         Vec<double, 2> side = per_b(i) * full;
         if (places.kind(i) != in_fluid && !places.slip) side = places.first_step ? full : across;
         else if (places.kind(i) == on_wall) side = across + per_b(i) * (full - across);
@@ -107,17 +115,21 @@ void ImplicitViscosity::set_right_side(const VecField<double, 2>& v, const VecFi
 void ImplicitViscosity::multiply(const Field<double>& x, const Field<double>& y) const {
   const linear::ClusterMatrix m = matrix_;
   const VecField<double, 2> normal = places_.normal;
-  const VecField<double, 2> in{Kokkos::subview(x, std::make_pair(0, m.rows)), Kokkos::subview(x, std::make_pair(m.rows, 2 * m.rows))};
-  const VecField<double, 2> out{Kokkos::subview(y, std::make_pair(0, m.rows)), Kokkos::subview(y, std::make_pair(m.rows, 2 * m.rows))};
-  launch("fpm::viscous_multiply", Range(0, m.clusters.size()), KOKKOS_LAMBDA(int c) {
+  const VecField<double, 2> in{Kokkos::subview(x, std::make_pair(0, m.rows)),
+                               Kokkos::subview(x, std::make_pair(m.rows, 2 * m.rows))};
+  const VecField<double, 2> out{Kokkos::subview(y, std::make_pair(0, m.rows)),
+                                Kokkos::subview(y, std::make_pair(m.rows, 2 * m.rows))};
+  launch(
+      "fpm::viscous_multiply", Range(0, m.clusters.size()), KOKKOS_LAMBDA(int c) {
         const Lanes me = m.clusters(c);
         const Vec<Lane, 2> n = me.load(normal), others = m.off_diagonal(c, in);
         me.store(out, me.load(in) + others - dot(others, n) * n);
       });
 }
 
-linear::BiCgStabReport ImplicitViscosity::solve(const StencilView<2>& stencils, const ViscousPlaces& places, double k,
-                                               const VecField<double, 2>& v, const VecField<double, 2>& start) {
+linear::BiCgStabReport ImplicitViscosity::solve(const StencilView<2>& stencils, const ViscousPlaces& places,
+                                                double k, const VecField<double, 2>& v,
+                                                const VecField<double, 2>& start) {
   const TimedRegion region("fpm::viscosity");
   places_ = places;
   assemble(stencils, k);
@@ -126,10 +138,14 @@ linear::BiCgStabReport ImplicitViscosity::solve(const StencilView<2>& stencils, 
   linear::BiCgStabOptions options;
   options.tolerance = 1e-11;
   options.floor = 1e-300;
-  const auto report = krylov_.solve(2 * n, [this](const auto& x, const auto& y) { multiply(x, y); },
-                                    [n](const auto& r, const auto& z) { linear::follow(2 * n, r, 0, z); }, b_, x_, options);
+  const auto report = krylov_.solve(
+      2 * n, [this](const auto& x, const auto& y) { multiply(x, y); },
+      [n](const auto& r, const auto& z) { linear::follow(2 * n, r, 0, z); }, b_, x_, options);
   const Field<double> x = x_;
-  launch("fpm::viscous_result", Range(0, n), KOKKOS_LAMBDA(int i) { put(v, i, {x(i), x(n + i)}); });
+  launch(
+      "fpm::viscous_result", Range(0, n), KOKKOS_LAMBDA(int i) {
+        put(v, i, {x(i), x(n + i)});
+      });
   return report;
 }
 

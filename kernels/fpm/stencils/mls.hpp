@@ -28,7 +28,8 @@ KOKKOS_FORCEINLINE_FUNCTION Terms<V, 2> basis(const Vec<V, 2>& s) {
 }
 template <class V>
 KOKKOS_FORCEINLINE_FUNCTION Terms<V, 3> basis(const Vec<V, 3>& s) {
-  return {{V(1.0), s.x, s.y, s.z, 0.5 * s.x * s.x, s.x * s.y, 0.5 * s.y * s.y, s.x * s.z, s.y * s.z, 0.5 * s.z * s.z}};
+  return {{V(1.0), s.x, s.y, s.z, 0.5 * s.x * s.x, s.x * s.y, 0.5 * s.y * s.y, s.x * s.z, s.y * s.z,
+           0.5 * s.z * s.z}};
 }
 
 // The terms whose coefficients add up to the Laplacian.
@@ -37,15 +38,19 @@ KOKKOS_FORCEINLINE_FUNCTION constexpr bool is_pure_second(int term) {
   return D == 1 ? term == 2 : D == 2 ? term == 3 || term == 5 : term == 4 || term == 6 || term == 9;
 }
 
-// The wider the weight, the less a gradient sees of waves of two spacings, up to seeing them reversed where stencils are one-sided: in rows
-// next to walls and surfaces a step then multiplies them by more than one.
+// The wider the weight, the less a gradient sees of waves of two spacings, up to seeing them reversed where
+// stencils are one-sided: in rows next to walls and surfaces a step then multiplies them by more than one.
 constexpr double steepness = 7;
 
 // exp(-steepness s) for s = R^2 < 1, else 0; relative error 2e-13. (exp(-t/128))^128 by its series.
 template <class V>
 KOKKOS_FORCEINLINE_FUNCTION V weight(const V& s) {
   const V t = (-steepness / 128) * smaller(s, V(1.0));
-  V e = 1.0 + t * (1.0 + t * (1.0 / 2 + t * (1.0 / 6 + t * (1.0 / 24 + t * (1.0 / 120 + t * (1.0 / 720 + t * (1.0 / 5040 + t * (1.0 / 40320))))))));
+  V e = 1.0 +
+        t * (1.0 + t * (1.0 / 2 +
+                        t * (1.0 / 6 +
+                             t * (1.0 / 24 + t * (1.0 / 120 +
+                                                  t * (1.0 / 720 + t * (1.0 / 5040 + t * (1.0 / 40320))))))));
   unroll<7>([&](auto) { e *= e; });
   return select(s < V(1.0), e, V(0.0));
 }
@@ -56,7 +61,7 @@ struct Moments {
   Symmetric<V, terms<D>> g;
 
   KOKKOS_FORCEINLINE_FUNCTION Moments() {
-    unroll<terms<D> * (terms<D> + 1) / 2>([&](auto k) { g.a[k] = V(0.0); });
+    unroll<terms<D>*(terms<D> + 1) / 2>([&](auto k) { g.a[k] = V(0.0); });
   }
   KOKKOS_FORCEINLINE_FUNCTION void add(const V& w, const Terms<V, D>& m) { g.add_square(w, m); }
 
@@ -70,7 +75,8 @@ struct Moments {
 
 // Of fits with (1) or without (0) a constant.
 template <class V, int D, int Constants>
-using FitSolver = std::conditional_t<D == 2, SoftFactored<V, Constants, Constants + terms<D> - 1>, Factored<V, Constants + terms<D> - 1>>;
+using FitSolver = std::conditional_t<D == 2, SoftFactored<V, Constants, Constants + terms<D> - 1>,
+                                     Factored<V, Constants + terms<D> - 1>>;
 
 // m . beta for factors without the constant.
 template <class V, int D>
@@ -80,7 +86,8 @@ KOKKOS_FORCEINLINE_FUNCTION V of_slopes(const Terms<V, D>& m, const Slopes<V, D>
   return sum;
 }
 
-// Factors of the derivatives at the centre, on differences f_j - f_centre (exact for constants): 1/m, of the Laplacian 1/m2.
+// Factors of the derivatives at the centre, on differences f_j - f_centre (exact for constants): 1/m, of the
+// Laplacian 1/m2.
 template <class V, int D>
 struct Derivatives {
   Slopes<V, D> gradient[D], laplacian;
@@ -100,7 +107,8 @@ struct Derivatives {
   }
 };
 
-// Factors of the fitted value at the origin of the basis. Few neighbours: the terms that they do not determine count as zero.
+// Factors of the fitted value at the origin of the basis. Few neighbours: the terms that they do not
+// determine count as zero.
 template <class Solver, class V, int D>
 KOKKOS_FORCEINLINE_FUNCTION Terms<V, D> value_factors_by(const Moments<V, D>& moments) {
   Terms<V, D> e;

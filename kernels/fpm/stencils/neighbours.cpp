@@ -5,7 +5,8 @@
 namespace freshet::fpm {
 namespace {
 
-// The first and last whole period by which the range low..high widened by reach must move to meet all of the domain that it covers.
+// The first and last whole period by which the range low..high widened by reach must move to meet all of the
+// domain that it covers.
 struct Turns {
   int first = 0, last = 0;
   KOKKOS_FORCEINLINE_FUNCTION Turns(double low, double high, double domain, double length) {
@@ -66,12 +67,13 @@ void NeighbourFinder<D>::reserve(int clusters) {
   const size_t room = static_cast<size_t>(larger(clusters + clusters / 4, 16));
   near.length = Field<int>("fpm.list_length", room);
   near.list = {};
-  near.list = decltype(near.list)(Kokkos::ViewAllocateWithoutInitializing("fpm.list"), room, static_cast<size_t>(slab_ + 1));
+  near.list = decltype(near.list)(Kokkos::ViewAllocateWithoutInitializing("fpm.list"), room,
+                                  static_cast<size_t>(slab_ + 1));
 }
 
 template <int D>
-const Neighbourhood<D>& NeighbourFinder<D>::find(const Rows& rows, const VecField<double, D>& x, const Field<double>& h, int points,
-                                                const Period& period) {
+const Neighbourhood<D>& NeighbourFinder<D>::find(const Rows& rows, const VecField<double, D>& x,
+                                                 const Field<double>& h, int points, const Period& period) {
   view_.x = x;
   view_.h = h;
   view_.points = points;

@@ -1,5 +1,6 @@
-// Who is near whom in FPM: for each cluster of points the list of those within h of any of its lanes. One list per step serves the
-// stencils, the elliptic rows and all operators, which take a pair's geometry from the positions again (cheaper than memory).
+// Who is near whom in FPM: for each cluster of points the list of those within h of any of its lanes. One
+// list per step serves the stencils, the elliptic rows and all operators, which take a pair's geometry from
+// the positions again (cheaper than memory).
 #pragma once
 #include "cellgrid/particles/clusters.hpp"
 #include "cellgrid/particles/near.hpp"
@@ -39,7 +40,8 @@ struct Neighbourhood {
     });
   }
 
-  // 1 in lanes with a point nearer than `part` of the support, itself included, that is one of those asked for, else 0.
+  // 1 in lanes with a point nearer than `part` of the support, itself included, that is one of those asked
+  // for, else 0.
   template <class IsOne>
   KOKKOS_FORCEINLINE_FUNCTION Lane any_near(int c, double part, const IsOne& is_one) const {
     const Lanes me = clusters(c);
@@ -60,8 +62,8 @@ template <int D>
 class NeighbourFinder {
  public:
   // x [m] and h [m] in the order of rows. A periodic domain is longer than 2 h.
-  const Neighbourhood<D>& find(const Rows& rows, const VecField<double, D>& x, const Field<double>& h, int points,
-                               const Period& period = {});
+  const Neighbourhood<D>& find(const Rows& rows, const VecField<double, D>& x, const Field<double>& h,
+                               int points, const Period& period = {});
   const Neighbourhood<D>& view() const { return view_; }
 
  private:

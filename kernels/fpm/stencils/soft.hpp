@@ -31,10 +31,12 @@ struct Axes {
     s = select(along_x, major, minor);
   }
 
-  // Slopes and second derivatives from entry `first` on: X, Y, XX/2, XY, YY/2 of the turned axes from those of the others.
+  // Slopes and second derivatives from entry `first` on: X, Y, XX/2, XY, YY/2 of the turned axes from those
+  // of the others.
   template <int First, int N>
   KOKKOS_FORCEINLINE_FUNCTION Column<V, N> turned(Column<V, N> v) const {
-    const V x = v[First], y = v[First + 1], p = v[First + 2], q = v[First + 3], r = v[First + 4], cc = c * c, cs = c * s, ss = s * s;
+    const V x = v[First], y = v[First + 1], p = v[First + 2], q = v[First + 3], r = v[First + 4], cc = c * c,
+            cs = c * s, ss = s * s;
     v[First] = c * x + s * y;
     v[First + 1] = c * y - s * x;
     v[First + 2] = cc * p + cs * q + ss * r;
@@ -45,7 +47,8 @@ struct Axes {
   // The transpose.
   template <int First, int N>
   KOKKOS_FORCEINLINE_FUNCTION Column<V, N> back(Column<V, N> v) const {
-    const V x = v[First], y = v[First + 1], p = v[First + 2], q = v[First + 3], r = v[First + 4], cc = c * c, cs = c * s, ss = s * s;
+    const V x = v[First], y = v[First + 1], p = v[First + 2], q = v[First + 3], r = v[First + 4], cc = c * c,
+            cs = c * s, ss = s * s;
     v[First] = c * x - s * y;
     v[First + 1] = s * x + c * y;
     v[First + 2] = cc * p - 2.0 * cs * q + ss * r;
@@ -62,7 +65,8 @@ class SoftFactored {
 
  public:
   explicit KOKKOS_FORCEINLINE_FUNCTION SoftFactored(const Symmetric<V, N>& g)
-      : axes_(g(First, First), g(First + 1, First), g(First + 1, First + 1)), factored_(turned(g), {1e-10, First + 2, stiffness, soft_pivot()}) {}
+      : axes_(g(First, First), g(First + 1, First), g(First + 1, First + 1)),
+        factored_(turned(g), {1e-10, First + 2, stiffness, soft_pivot()}) {}
 
   KOKKOS_FORCEINLINE_FUNCTION Column<V, N> solve(const Column<V, N>& b) const {
     return axes_.template back<First>(factored_.solve(axes_.template turned<First>(b)));

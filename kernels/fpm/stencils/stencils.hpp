@@ -16,7 +16,8 @@ struct StencilView {
 
   static constexpr int slopes = terms<D> - 1;
   static constexpr int laplacian_first = D * slopes, value_first = laplacian_first + slopes,
-                       moments_first = value_first + terms<D>, moment_count = terms<D> * (terms<D> + 1) / 2, count = moments_first + moment_count;
+                       moments_first = value_first + terms<D>, moment_count = terms<D> * (terms<D> + 1) / 2,
+                       count = moments_first + moment_count;
 
   template <int N>
   KOKKOS_FORCEINLINE_FUNCTION Column<Lane, N> load(int c, int first) const {
@@ -40,7 +41,7 @@ struct StencilView {
   }
 
   // At the cluster's points, of fields f and v.
-  KOKKOS_INLINE_FUNCTION Vec<Lane, D> gradient(int c, const Field<double>& f) const {       // 1/m x f
+  KOKKOS_INLINE_FUNCTION Vec<Lane, D> gradient(int c, const Field<double>& f) const {  // 1/m x f
     static_assert(D == 2, "three dimensions need a third component here");
     const auto bx = load<slopes>(c, 0), by = load<slopes>(c, slopes);
     const Lane here = around.clusters(c).load(f);
@@ -61,7 +62,7 @@ struct StencilView {
     });
     return sum;
   }
-  KOKKOS_INLINE_FUNCTION Lane divergence(int c, const VecField<double, D>& v) const {        // 1/m x v
+  KOKKOS_INLINE_FUNCTION Lane divergence(int c, const VecField<double, D>& v) const {  // 1/m x v
     const auto bx = load<slopes>(c, 0), by = load<slopes>(c, slopes);
     const Vec<Lane, D> here = around.clusters(c).load(v);
     Lane sum{0.0};
@@ -74,7 +75,8 @@ struct StencilView {
   KOKKOS_INLINE_FUNCTION Lane fit(int c, const Field<double>& f) const {
     const auto beta = load<terms<D>>(c, value_first);
     Lane sum = beta[0] * around.clusters(c).load(f);
-    around.for_each(c, [&](int j, const Terms<Lane, D>& m, const Lane& w) { sum += w * f(j) * dot(m, beta); });
+    around.for_each(c,
+                    [&](int j, const Terms<Lane, D>& m, const Lane& w) { sum += w * f(j) * dot(m, beta); });
     return sum;
   }
 };

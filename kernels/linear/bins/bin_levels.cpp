@@ -20,22 +20,24 @@ template <class View>
 void grow(View& table, const std::string& label, int n, int width) {
   if (table.extent_int(0) >= n + lanes && table.extent_int(1) >= width) return;
   table = {};
-  table = View(Kokkos::ViewAllocateWithoutInitializing(label), static_cast<size_t>(n + n / 2 + 16 + lanes), static_cast<size_t>(width));
+  table = View(Kokkos::ViewAllocateWithoutInitializing(label), static_cast<size_t>(n + n / 2 + 16 + lanes),
+               static_cast<size_t>(width));
   prefer_huge_pages(table);
   Kokkos::deep_copy(table, 0);
 }
 
 int halved(int n) { return (n + 1) / 2; }
 
-// Bins that an entry reaches on the next level; of an odd number of bins round a period the last one stays half a bin.
+// Bins that an entry reaches on the next level; of an odd number of bins round a period the last one stays
+// half a bin.
 int halved_reach(int reach, int bins, bool wrap) { return (reach + 1 + (wrap && bins % 2 == 1)) / 2; }
 
 // Finds which bin each fine unknown's is, once the coarse bins are numbered.
 void find_parents(const BinLevel& fine, const BinLevel& coarse) {
   const BinLevel f = fine, c = coarse;
-  launch("multigrid::parents", Range(0, fine.size), KOKKOS_LAMBDA(int k) {
-        f.parent(k) = c.number(f.bin(k) / f.nx / 2 * c.nx + f.bin(k) % f.nx / 2);
-      });
+  launch(
+      "multigrid::parents", Range(0, fine.size),
+      KOKKOS_LAMBDA(int k) { f.parent(k) = c.number(f.bin(k) / f.nx / 2 * c.nx + f.bin(k) % f.nx / 2); });
 }
 
 void reserve(BinLevel& level) {
@@ -49,28 +51,35 @@ void reserve(BinLevel& level) {
   for (Vector* v : {&level.inverse_diagonal, &level.b, &level.x, &level.y}) grow(*v, "multigrid.vector", n);
 }
 
-// Zero rows with their columns; a slot without unknown refers to its own row. And which blocks can do without gathers.
+// Zero rows with their columns; a slot without unknown refers to its own row. And which blocks can do without
+// gathers.
 void clear_rows(const BinLevel& level) {
-  launch("multigrid::clear_rows", Range(0, level.size), KOKKOS_LAMBDA(int k) {
+  launch(
+      "multigrid::clear_rows", Range(0, level.size), KOKKOS_LAMBDA(int k) {
         for (int s = 0; s < level.width(); ++s) {
           const int j = level.unknown(level.bin(k), s);
           level.a(k, s) = 0;
           level.column(k, s) = j < 0 ? k : j;
         }
       });
-  launch("multigrid::even", Range(0, level.blocks()), KOKKOS_LAMBDA(int c) {
+  launch(
+      "multigrid::even", Range(0, level.blocks()), KOKKOS_LAMBDA(int c) {
         const int first = c * lanes;
         int even = first + lanes <= level.size;
         for (int s = 0; s < level.width(); ++s)
-          for (int l = 1; even && l < lanes; ++l) even = level.column(first + l, s) == level.column(first, s) + l;
+          for (int l = 1; even && l < lanes; ++l)
+            even = level.column(first + l, s) == level.column(first, s) + l;
         level.even(c) = even;
       });
 }
 
 void invert_diagonal(const BinLevel& level) {
-  launch("multigrid::diagonal", Range(0, level.size), KOKKOS_LAMBDA(int k) {
+  launch(
+      "multigrid::diagonal", Range(0, level.size), KOKKOS_LAMBDA(int k) {
         const double d = level.a(k, level.centre());
-        level.inverse_diagonal(k) = d > 1e-3 * level.weight(k) ? 1 / d : 1 / level.weight(k);  // rows near zero are not smoothed by them
+        level.inverse_diagonal(k) = d > 1e-3 * level.weight(k)
+                                        ? 1 / d
+                                        : 1 / level.weight(k);  // rows near zero are not smoothed by them
       });
 }
 
@@ -103,7 +112,8 @@ void BinMultigrid::find_clusters() {
   const ClusterMatrix m = matrix_;
   grow(cluster_, "multigrid.cluster", m.rows);
   const Field<int> cluster = cluster_;
-  launch("multigrid::clusters", Range(0, m.clusters.size()), KOKKOS_LAMBDA(int c) {
+  launch(
+      "multigrid::clusters", Range(0, m.clusters.size()), KOKKOS_LAMBDA(int c) {
         const Lanes me = m.clusters(c);
         for (int l = 0; l < me.count; ++l) cluster(me.first + l) = c;
       });
@@ -112,19 +122,24 @@ void BinMultigrid::find_clusters() {
 // Numbers the bins whose `number` is not negative, in their order, and lists them.
 void BinMultigrid::number_bins(BinLevel& level) {
   const Field<int> number = level.number;
-  Kokkos::parallel_scan("multigrid::number", Range(0, level.nx * level.ny), KOKKOS_LAMBDA(int bin, int& sum, bool last) {
+  Kokkos::parallel_scan(
+      "multigrid::number", Range(0, level.nx * level.ny),
+      KOKKOS_LAMBDA(int bin, int& sum, bool last) {
         const bool holds = number(bin) >= 0;
         if (last && holds) number(bin) = sum;
         sum += holds;
-      }, level.size);
+      },
+      level.size);
   reserve(level);
   const BinLevel l = level;
-  launch("multigrid::list_bins", Range(0, level.nx * level.ny), KOKKOS_LAMBDA(int bin) {
+  launch(
+      "multigrid::list_bins", Range(0, level.nx * level.ny), KOKKOS_LAMBDA(int bin) {
         if (l.number(bin) >= 0) l.bin(l.number(bin)) = bin;
       });
 }
 
-void BinMultigrid::build(const ClusterMatrix& matrix, const Field<int>& free, const Grid& grid, bool singular) {
+void BinMultigrid::build(const ClusterMatrix& matrix, const Field<int>& free, const Grid& grid,
+                         bool singular) {
   const TimedRegion region("multigrid::build");
   matrix_ = matrix;
   free_ = free;
@@ -136,8 +151,9 @@ void BinMultigrid::build(const ClusterMatrix& matrix, const Field<int>& free, co
   BinLevel& first = levels_.front();
   first.nx = (rows_.bins - 1) / bins_ + 1;
   first.ny = rows_.rows;
-  first.rx = static_cast<int>(std::ceil(grid.reach / (bins_ * rows_.bin_width))) + grid.wrap_x;  // the last bin round a period
-  first.ry = static_cast<int>(std::ceil(grid.reach / rows_.row_height)) + grid.wrap_y;            // may be narrow
+  first.rx = static_cast<int>(std::ceil(grid.reach / (bins_ * rows_.bin_width))) +
+             grid.wrap_x;  // the last bin round a period
+  first.ry = static_cast<int>(std::ceil(grid.reach / rows_.row_height)) + grid.wrap_y;  // may be narrow
   first.wrap_x = grid.wrap_x;
   first.wrap_y = grid.wrap_y;
   sum_points(first);
@@ -153,7 +169,8 @@ void BinMultigrid::sum_points(BinLevel& level) {
   grow(parent_, "multigrid.point_parent", matrix_.rows);
   const PointsOfBins points{rows_, bins_, level.nx};
   const Field<int> number = level.number, free = free_, parent = parent_, cluster = cluster_;
-  launch("multigrid::mark_bins", Range(0, level.nx * level.ny), KOKKOS_LAMBDA(int bin) {
+  launch(
+      "multigrid::mark_bins", Range(0, level.nx * level.ny), KOKKOS_LAMBDA(int bin) {
         int holds = -1;
         for (int i = points.first(bin); i < points.end(bin); ++i) holds = free(i) ? 1 : holds;
         number(bin) = holds;
@@ -161,11 +178,13 @@ void BinMultigrid::sum_points(BinLevel& level) {
   number_bins(level);
   const BinLevel l = level;
   const ClusterMatrix m = matrix_;
-  launch("multigrid::point_parents", Range(0, level.nx * level.ny), KOKKOS_LAMBDA(int bin) {
+  launch(
+      "multigrid::point_parents", Range(0, level.nx * level.ny), KOKKOS_LAMBDA(int bin) {
         for (int i = points.first(bin); i < points.end(bin); ++i) parent(i) = free(i) ? l.number(bin) : -1;
       });
   clear_rows(level);
-  launch("multigrid::sum_points", Range(0, level.size), KOKKOS_LAMBDA(int k) {
+  launch(
+      "multigrid::sum_points", Range(0, level.size), KOKKOS_LAMBDA(int k) {
         double members = 0;
         for (int i = points.first(l.bin(k)); i < points.end(l.bin(k)); ++i) {
           if (!free(i)) continue;
@@ -195,7 +214,8 @@ void BinMultigrid::sum_bins(const BinLevel& fine, BinLevel& coarse) {
   coarse.wrap_y = fine.wrap_y;
   grow(coarse.number, "multigrid.number", coarse.nx * coarse.ny);
   const BinLevel f = fine, grid = coarse;
-  launch("multigrid::mark_bins", Range(0, coarse.nx * coarse.ny), KOKKOS_LAMBDA(int bin) {
+  launch(
+      "multigrid::mark_bins", Range(0, coarse.nx * coarse.ny), KOKKOS_LAMBDA(int bin) {
         grid.number(bin) = -1;
         for_each_child(f, grid, bin, [&](int) { grid.number(bin) = 1; });
       });
@@ -203,7 +223,8 @@ void BinMultigrid::sum_bins(const BinLevel& fine, BinLevel& coarse) {
   find_parents(fine, coarse);
   clear_rows(coarse);
   const BinLevel l = coarse;
-  launch("multigrid::sum_bins", Range(0, coarse.size), KOKKOS_LAMBDA(int k) {
+  launch(
+      "multigrid::sum_bins", Range(0, coarse.size), KOKKOS_LAMBDA(int k) {
         l.weight(k) = 0;
         for_each_child(f, l, l.bin(k), [&](int i) {
           l.weight(k) += f.weight(i);
@@ -221,7 +242,8 @@ void BinMultigrid::invert_last(bool singular) {
   const auto column = on_host(last.column);
   const auto weight = on_host(last.weight);
   const int n = last.size;
-  if (inverse_.extent_int(0) < n) inverse_ = Table("multigrid.inverse", static_cast<size_t>(n), static_cast<size_t>(n));
+  if (inverse_.extent_int(0) < n)
+    inverse_ = Table("multigrid.inverse", static_cast<size_t>(n), static_cast<size_t>(n));
   const auto dense = Kokkos::create_mirror_view(inverse_);
   double members = 0;
   for (int k = 0; k < n; ++k) members += weight(k);

@@ -1,5 +1,5 @@
-// The levels of the bin multigrid (bin_multigrid.hpp): square bins of points, then of bins, with their matrices as stencils on the grid
-// of bins.
+// The levels of the bin multigrid (bin_multigrid.hpp): square bins of points, then of bins, with their
+// matrices as stencils on the grid of bins.
 #pragma once
 #include "cellgrid/particles/order.hpp"
 #include "kernels/linear/cluster_matrix.hpp"
@@ -9,19 +9,21 @@ namespace freshet::linear {
 
 // One level: the bins that hold unknowns, numbered along rows of bins.
 struct BinLevel {
-  int nx = 1, ny = 1;            // bins in the grid
-  int rx = 1, ry = 1;            // bins that an entry reaches, along x and y
+  int nx = 1, ny = 1;  // bins in the grid
+  int rx = 1, ry = 1;  // bins that an entry reaches, along x and y
   bool wrap_x = false, wrap_y = false;
-  int size = 0;                  // unknowns
-  Field<int> number;             // of bin [y * nx + x], -1 without unknowns
-  Field<int> bin;                // of an unknown
-  Field<int> parent;             // of an unknown: its number on the next level
-  Field<double> weight;          // unknowns of the matrix in it
-  Kokkos::View<double**, Kokkos::LayoutLeft, Memory> a;  // [unknown][slot], slot = (dy + ry) (2 rx + 1) + dx + rx
+  int size = 0;          // unknowns
+  Field<int> number;     // of bin [y * nx + x], -1 without unknowns
+  Field<int> bin;        // of an unknown
+  Field<int> parent;     // of an unknown: its number on the next level
+  Field<double> weight;  // unknowns of the matrix in it
+  Kokkos::View<double**, Kokkos::LayoutLeft, Memory>
+      a;  // [unknown][slot], slot = (dy + ry) (2 rx + 1) + dx + rx
   Kokkos::View<int**, Kokkos::LayoutLeft, Memory> column;
-  Field<int> even;               // of a block of rows: 1 where the columns of each slot follow each other, as away from the rim
+  Field<int>
+      even;  // of a block of rows: 1 where the columns of each slot follow each other, as away from the rim
   Vector inverse_diagonal;
-  Vector b, x, y;                // of the cycle
+  Vector b, x, y;  // of the cycle
 
   KOKKOS_FORCEINLINE_FUNCTION int width() const { return (2 * rx + 1) * (2 * ry + 1); }
   KOKKOS_FORCEINLINE_FUNCTION int centre() const { return width() / 2; }
@@ -54,7 +56,8 @@ struct BinLevel {
       for (int s = 0; s < width(); ++s) sum += entry(c, s) * loaded<Lane>(v.data() + column(c * lanes, s));
       return sum;
     }
-    for (int s = 0; s < width(); ++s) sum += entry(c, s) * gather(v.data(), loaded<LaneIndex>(&column(c * lanes, s)));
+    for (int s = 0; s < width(); ++s)
+      sum += entry(c, s) * gather(v.data(), loaded<LaneIndex>(&column(c * lanes, s)));
     return sum;
   }
   KOKKOS_FORCEINLINE_FUNCTION Lane entry(int c, int s) const { return loaded<Lane>(&a(c * lanes, s)); }
@@ -74,7 +77,8 @@ struct PointsOfBins {
 
 // Calls see(unknown) for the unknowns of the finer level in a bin.
 template <class See>
-KOKKOS_FORCEINLINE_FUNCTION void for_each_child(const BinLevel& fine, const BinLevel& coarse, int bin, const See& see) {
+KOKKOS_FORCEINLINE_FUNCTION void for_each_child(const BinLevel& fine, const BinLevel& coarse, int bin,
+                                                const See& see) {
   const int x0 = 2 * (bin % coarse.nx), y0 = 2 * (bin / coarse.nx);
   for (int y = y0; y < smaller(y0 + 2, fine.ny); ++y)
     for (int x = x0; x < smaller(x0 + 2, fine.nx); ++x)

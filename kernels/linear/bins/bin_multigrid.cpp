@@ -25,7 +25,8 @@ const char* residual_label(const BinLevel&) { return "multigrid::residual_bins";
 // to := damping D^-1 b
 template <class Level>
 void smooth_zero(const Level& level, const Vector& b, const Vector& to, double damping) {
-  launch("multigrid::smooth_zero", Range(0, level.blocks()), KOKKOS_LAMBDA(int c) {
+  launch(
+      "multigrid::smooth_zero", Range(0, level.blocks()), KOKKOS_LAMBDA(int c) {
         const Lanes me = level.block(c);
         me.store(to, damping * level.per_diagonal(c) * me.load(b));
       });
@@ -34,7 +35,8 @@ void smooth_zero(const Level& level, const Vector& b, const Vector& to, double d
 // to := x + damping D^-1 (b - A x)
 template <class Level>
 void smooth(const Level& level, const Vector& b, const Vector& x, const Vector& to, double damping) {
-  launch(smooth_label(level), Range(0, level.blocks()), KOKKOS_LAMBDA(int c) {
+  launch(
+      smooth_label(level), Range(0, level.blocks()), KOKKOS_LAMBDA(int c) {
         const Lanes me = level.block(c);
         me.store(to, me.load(x) + damping * level.per_diagonal(c) * (me.load(b) - level.times(c, x)));
       });
@@ -42,7 +44,8 @@ void smooth(const Level& level, const Vector& b, const Vector& x, const Vector& 
 
 // Sweeps from zero; the result is in x, y is scratch.
 template <class Level>
-void smooth_from_zero(const Level& level, const Vector& b, Vector& x, Vector& y, const MultigridOptions& options) {
+void smooth_from_zero(const Level& level, const Vector& b, Vector& x, Vector& y,
+                      const MultigridOptions& options) {
   smooth_zero(level, b, x, options.damping_of(0));
   for (int s = 1; s < options.sweeps; ++s, std::swap(x, y)) smooth(level, b, x, y, options.damping_of(s));
 }
@@ -50,7 +53,8 @@ void smooth_from_zero(const Level& level, const Vector& b, Vector& x, Vector& y,
 // to := b - A x
 template <class Level>
 void find_residual(const Level& level, const Vector& b, const Vector& x, const Vector& to) {
-  launch(residual_label(level), Range(0, level.blocks()), KOKKOS_LAMBDA(int c) {
+  launch(
+      residual_label(level), Range(0, level.blocks()), KOKKOS_LAMBDA(int c) {
         const Lanes me = level.block(c);
         me.store(to, me.load(b) - level.times(c, x));
       });
@@ -58,7 +62,8 @@ void find_residual(const Level& level, const Vector& b, const Vector& x, const V
 
 // x += factor e(parent)
 void add_coarse(int n, const Field<int>& parent, double factor, const Vector& e, const Vector& x) {
-  launch("multigrid::add_coarse", Range(0, n), KOKKOS_LAMBDA(int i) {
+  launch(
+      "multigrid::add_coarse", Range(0, n), KOKKOS_LAMBDA(int i) {
         if (parent(i) >= 0) x(i) += factor * e(parent(i));
       });
 }
@@ -75,14 +80,16 @@ void BinMultigrid::operator()(const Vector& r, const Vector& z) {
   const PointsOfBins bins{rows_, bins_, first.nx};
   const Field<int> bin = first.bin;
   const Vector b = first.b;
-  launch("multigrid::restrict_points", Range(0, first.size), KOKKOS_LAMBDA(int k) {
+  launch(
+      "multigrid::restrict_points", Range(0, first.size), KOKKOS_LAMBDA(int k) {
         double sum = 0;
         for (int i = bins.first(bin(k)); i < bins.end(bin(k)); ++i) sum += y(i);
         b(k) = sum;
       });
   cycle(0);
   add_coarse(matrix_.rows, parent_, options_.over_correction, first.x, x);
-  for (int s = 0; s < options_.sweeps; ++s, std::swap(x, y)) smooth(points, r, x, y, options_.damping_of(s + 1));
+  for (int s = 0; s < options_.sweeps; ++s, std::swap(x, y))
+    smooth(points, r, x, y, options_.damping_of(s + 1));
 }
 
 // level.x := one cycle on level.b.
@@ -93,7 +100,8 @@ void BinMultigrid::cycle(int depth) {
     const auto inverse = inverse_;
     const Vector x = level.x;
     const int n = level.size;
-    launch("multigrid::coarsest", Range(0, n), KOKKOS_LAMBDA(int i) {
+    launch(
+        "multigrid::coarsest", Range(0, n), KOKKOS_LAMBDA(int i) {
           double sum = 0;
           for (int j = 0; j < n; ++j) sum += inverse(i, j) * b(j);
           x(i) = sum;
@@ -103,14 +111,17 @@ void BinMultigrid::cycle(int depth) {
   smooth_from_zero(level, b, level.x, level.y, options_);
   find_residual(level, b, level.x, level.y);
   const BinLevel fine = level, coarse = levels_[static_cast<std::size_t>(depth + 1)];
-  launch("multigrid::restrict", Range(0, coarse.size), KOKKOS_LAMBDA(int k) {
+  launch(
+      "multigrid::restrict", Range(0, coarse.size), KOKKOS_LAMBDA(int k) {
         double sum = 0;
         for_each_child(fine, coarse, coarse.bin(k), [&](int i) { sum += fine.y(i); });
         coarse.b(k) = sum;
       });
   cycle(depth + 1);
-  add_coarse(level.size, level.parent, options_.over_correction, levels_[static_cast<std::size_t>(depth + 1)].x, level.x);
-  for (int s = 0; s < options_.sweeps; ++s, std::swap(level.x, level.y)) smooth(level, b, level.x, level.y, options_.damping_of(s + 1));
+  add_coarse(level.size, level.parent, options_.over_correction,
+             levels_[static_cast<std::size_t>(depth + 1)].x, level.x);
+  for (int s = 0; s < options_.sweeps; ++s, std::swap(level.x, level.y))
+    smooth(level, b, level.x, level.y, options_.damping_of(s + 1));
 }
 
 }  // namespace freshet::linear

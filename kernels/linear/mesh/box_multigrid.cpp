@@ -7,13 +7,14 @@
 namespace freshet::linear {
 namespace {
 
-constexpr double first_damping = 0.7, second_damping = 1.2;  // of the two sweeps; afterwards in the other order
-constexpr double nothing = 1e-8;                             // of the largest diagonal of a level: below it a node is not coupled
+constexpr double first_damping = 0.7,
+                 second_damping = 1.2;  // of the two sweeps; afterwards in the other order
+constexpr double nothing = 1e-8;        // of the largest diagonal of a level: below it a node is not coupled
 
 KOKKOS_INLINE_FUNCTION int coarse_count(int n) { return (n + 1) / 2; }
 
-// Along one axis of n fine nodes: node 2I is coarse node I, an odd one lies between two. The last of an even number takes the value of
-// the one before unless the axis is periodic.
+// Along one axis of n fine nodes: node 2I is coarse node I, an odd one lies between two. The last of an even
+// number takes the value of the one before unless the axis is periodic.
 struct Axis {
   int n;
   bool wrap;
@@ -24,11 +25,13 @@ struct Axis {
     return odd == n - 1 && !wrap ? 1.0 : 0.5;
   }
   KOKKOS_FORCEINLINE_FUNCTION double weight(int fine) const { return fine % 2 == 0 ? 1.0 : share(fine); }
-  // Conductance between coarse nodes I and I + 1 of the two faces between them, the second of which is at `step` from the first.
+  // Conductance between coarse nodes I and I + 1 of the two faces between them, the second of which is at
+  // `step` from the first.
   KOKKOS_FORCEINLINE_FUNCTION double across(const Vector& k, int at, int step, int coarse) const {
     const int a = 2 * coarse;
     if (coarse_count(n) == 1 || (!wrap && a + 2 >= n)) return 0;
-    return a + 1 < n ? 0.25 * (k(at) + k(at + step)) : k(at);  // an odd number of nodes: the last is next to the first
+    return a + 1 < n ? 0.25 * (k(at) + k(at + step))
+                     : k(at);  // an odd number of nodes: the last is next to the first
   }
 };
 
@@ -42,9 +45,12 @@ struct Neighbours {
   KOKKOS_FORCEINLINE_FUNCTION Neighbours(const BoxLevel& l, const Vector& v, int at)
       : east(l.east.data() + at), north(l.north.data() + at), c(v.data() + at), stride(l.grid.stride()) {}
   KOKKOS_FORCEINLINE_FUNCTION double operator()(int i) const {
-    return east[i] * c[i + 1] + east[i - 1] * c[i - 1] + north[i] * c[i + stride] + north[i - stride] * c[i - stride];
+    return east[i] * c[i + 1] + east[i - 1] * c[i - 1] + north[i] * c[i + stride] +
+           north[i - stride] * c[i - stride];
   }
-  KOKKOS_FORCEINLINE_FUNCTION double conductance(int i) const { return east[i] + east[i - 1] + north[i] + north[i - stride]; }
+  KOKKOS_FORCEINLINE_FUNCTION double conductance(int i) const {
+    return east[i] + east[i - 1] + north[i] + north[i - stride];
+  }
 };
 
 struct SmoothFromZero {
@@ -70,7 +76,8 @@ struct Sweep {
     const int at = l.grid.start(j);
     const Neighbours sum(l, c, at);
     double* const KOKKOS_RESTRICT result = to.data() + at;
-    const double *const inverse = l.inverse.data() + at, *const right = l.right.data() + at, *const mass = l.mass.data() + at;
+    const double *const inverse = l.inverse.data() + at, *const right = l.right.data() + at,
+                        *const mass = l.mass.data() + at;
     for (int i = 0; i < l.grid.nx; ++i) {
       const double here = sum.c[i], r = right[i] - (mass[i] + sum.conductance(i)) * here + sum(i);
       result[i] = Residual ? r : here + factor * inverse[i] * r;
@@ -85,7 +92,8 @@ struct Restrict {
 
   KOKKOS_FUNCTION void operator()(int row) const {
     const Axis x = along_x(fine.grid), y = along_y(fine.grid);
-    const int at = fine.grid.start(2 * row), stride = fine.grid.stride(), to = coarse.grid.start(row), last = coarse.grid.nx - 1;
+    const int at = fine.grid.start(2 * row), stride = fine.grid.stride(), to = coarse.grid.start(row),
+              last = coarse.grid.nx - 1;
     const double south = y.share(2 * row - 1), north = y.share(2 * row + 1);
     const double* const r = fine.spare.data() + at;
     const auto column = [&](int i) { return r[i] + south * r[i - stride] + north * r[i + stride]; };
@@ -106,7 +114,10 @@ struct Prolong {
   KOKKOS_FUNCTION void operator()(int row) const {
     const BoxGrid f = fine.grid, g = coarse.grid;
     const bool clip_y = !f.wrap_y && (row + 1) / 2 >= g.ny, clip_x = !f.wrap_x;
-    const double *const below = coarse.c.data() + g.start(row / 2), *const above = coarse.c.data() + g.start(clip_y ? row / 2 : (row + 1) / 2);
+    const double *const below = coarse.c.data() + g.start(row / 2), *const above =
+                                                                        coarse.c.data() +
+                                                                        g.start(clip_y ? row / 2
+                                                                                       : (row + 1) / 2);
     double* const KOKKOS_RESTRICT to = fine.c.data() + f.start(row);
     for (int i = 0; i < f.nx / 2; ++i) {
       const int next = clip_x && i + 1 == g.nx ? i : i + 1;
@@ -119,7 +130,8 @@ struct Prolong {
   }
 };
 
-// mass: P^T mass. Conductances: the two fine ones in a row as linear interpolation sees them, (k + k') / 4, over the width.
+// mass: P^T mass. Conductances: the two fine ones in a row as linear interpolation sees them, (k + k') / 4,
+// over the width.
 struct Coarsen {
   BoxLevel fine, coarse;
 
@@ -133,7 +145,8 @@ struct Coarsen {
         if (wy > 0) east += wy * x.across(fine.east, f.start(2 * row + d) + 2 * i, 1, i);
         if (wx > 0) north += wx * y.across(fine.north, f.start(2 * row) + 2 * i + d, f.stride(), row);
         for (int e = -1; e <= 1 && wx > 0; ++e)
-          if (const double w = wx * y.weight(2 * row + e); w > 0) mass += w * fine.mass(f.start(2 * row + e) + 2 * i + d);
+          if (const double w = wx * y.weight(2 * row + e); w > 0)
+            mass += w * fine.mass(f.start(2 * row + e) + 2 * i + d);
       }
       const int n = g.start(row) + i;
       coarse.mass(n) = mass, coarse.east(n) = east, coarse.north(n) = north;
@@ -160,19 +173,24 @@ struct InvertDiagonal {
 
 double largest_conductance(const BoxLevel& l) {
   double most = 0;
-  Kokkos::parallel_reduce("box_multigrid::scale", Range(0, l.grid.size()), KOKKOS_LAMBDA(int n, double& value) {
-        value = larger(value, l.east(n) + l.north(n));
-      }, Kokkos::Max<double>(most));
+  Kokkos::parallel_reduce(
+      "box_multigrid::scale", Range(0, l.grid.size()),
+      KOKKOS_LAMBDA(int n, double& value) { value = larger(value, l.east(n) + l.north(n)); },
+      Kokkos::Max<double>(most));
   return most;
 }
 
 // Room for a level, its halo zero.
 void lay_out(BoxLevel& level, const BoxGrid& grid) {
   const BoxGrid old = level.grid;
-  if (level.mass.extent_int(0) > 0 && old.nx == grid.nx && old.ny == grid.ny && old.wrap_x == grid.wrap_x && old.wrap_y == grid.wrap_y) return;
+  if (level.mass.extent_int(0) > 0 && old.nx == grid.nx && old.ny == grid.ny && old.wrap_x == grid.wrap_x &&
+      old.wrap_y == grid.wrap_y)
+    return;
   level.grid = grid;
-  for (Vector* v : {&level.mass, &level.east, &level.north, &level.inverse, &level.right, &level.c, &level.spare}) {
-    if (v->extent_int(0) < grid.size()) *v = Vector("box_multigrid", static_cast<size_t>(grid.size() + grid.size() / 4));
+  for (Vector* v :
+       {&level.mass, &level.east, &level.north, &level.inverse, &level.right, &level.c, &level.spare}) {
+    if (v->extent_int(0) < grid.size())
+      *v = Vector("box_multigrid", static_cast<size_t>(grid.size() + grid.size() / 4));
     fill(v->extent_int(0), 0.0, *v);
   }
 }

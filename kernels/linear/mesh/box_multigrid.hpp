@@ -1,10 +1,11 @@
 // One multigrid V-cycle of a 5-point system on the nodes of a box, open or periodic along each axis:
 //   (A c)_n = mass_n c_n + sum over the four faces k_f (c_n - c_m),   mass, k >= 0
-// Nodes with neither are not solved for: their right-hand side has to be 0, and what is found there is interpolated from coarser levels.
-// Two damped Jacobi sweeps before and after, bilinear interpolation to every second node, its transpose as restriction, and on the
-// coarse level the 5-point part of P^T A P. Halved until one node is left: no direct solver. Rows of nodes are contiguous with a
-// halo of one node, so that sweeps run over them without conditions; each row is one index of a launch, the result does not depend on
-// the number of threads. For preconditioners (kernels/linear/mesh/mesh_correction.hpp).
+// Nodes with neither are not solved for: their right-hand side has to be 0, and what is found there is
+// interpolated from coarser levels. Two damped Jacobi sweeps before and after, bilinear interpolation to
+// every second node, its transpose as restriction, and on the coarse level the 5-point part of P^T A P.
+// Halved until one node is left: no direct solver. Rows of nodes are contiguous with a halo of one node, so
+// that sweeps run over them without conditions; each row is one index of a launch, the result does not depend
+// on the number of threads. For preconditioners (kernels/linear/mesh/mesh_correction.hpp).
 #pragma once
 #include <vector>
 
@@ -12,7 +13,8 @@
 
 namespace freshet::linear {
 
-// The nodes of one level: (i, j) is at start(j) + i; columns -1 and nx, rows -1 and ny are the halo: zero, or of the other side.
+// The nodes of one level: (i, j) is at start(j) + i; columns -1 and nx, rows -1 and ny are the halo: zero, or
+// of the other side.
 struct BoxGrid {
   int nx = 1, ny = 1;
   bool wrap_x = false, wrap_y = false;
@@ -49,8 +51,8 @@ class BoxMultigrid {
  public:
   // Makes the levels below a grid; keeps its memory while grids do not grow.
   void resize(const BoxGrid& grid);
-  // The finest system and its right-hand side, to be filled row by row (each row then wrapped), then coarsen(); the right-hand
-  // side before each cycle().
+  // The finest system and its right-hand side, to be filled row by row (each row then wrapped), then
+  // coarsen(); the right-hand side before each cycle().
   const BoxLevel& finest() const { return levels_.front(); }
   // Coefficients of the coarser levels and all inverse diagonals.
   void coarsen();

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "cellgrid/particles/clusters.hpp"
 #include "cellgrid/parallel/launch.hpp"
+#include "cellgrid/particles/clusters.hpp"
 #include "kernels/linear/mesh/mesh_passes.hpp"
 
 namespace freshet::linear {
@@ -23,7 +23,8 @@ struct FindPlaces {
     const MeshCells m = cells.mesh;
     const double south = m.y0 + row * m.height, per_height = 1 / m.height_of(row);
     for (int column = 0; column < m.columns; ++column) {
-      const int first = rows.begin(row, column * bins), end = rows.end(row, smaller((column + 1) * bins, rows.bins) - 1);
+      const int first = rows.begin(row, column * bins),
+                end = rows.end(row, smaller((column + 1) * bins, rows.bins) - 1);
       cells.first(row * m.columns + column) = first;
       const double west = m.x0 + column * m.width, per_width = 1 / m.width_of(column);
       for (int i = first; i < end; ++i) {
@@ -70,7 +71,8 @@ bool MeshCorrection<D>::suits(const Rows& rows, int points, double most) {
 }
 
 template <int D>
-void MeshCorrection<D>::lay(const Rows& rows, const VecField<double, D>& x, int points, const Period& period) {
+void MeshCorrection<D>::lay(const Rows& rows, const VecField<double, D>& x, int points,
+                            const Period& period) {
   const int bins = bins_per_cell(rows);
   MeshCells& m = cells_;
   m = {(rows.bins - 1) / bins + 1, rows.rows, rows.x0, rows.y0, bins * rows.bin_width, rows.row_height};
@@ -86,7 +88,8 @@ void MeshCorrection<D>::lay(const Rows& rows, const VecField<double, D>& x, int 
   reserve(first_, "mesh_correction.first", m.size() + 1);
   reserve(south_, "mesh_correction.south", grid.size());
   reserve(north_, "mesh_correction.north", grid.size());
-  launch("mesh_correction::places", Range(0, m.rows), FindPlaces<D>{{m, grid, first_}, rows, bins, x, node_, fx_, fy_});
+  launch("mesh_correction::places", Range(0, m.rows),
+         FindPlaces<D>{{m, grid, first_}, rows, bins, x, node_, fx_, fy_});
 }
 
 template <int D>

@@ -1,9 +1,11 @@
-// What two preconditioners (particle_mesh.hpp, point_mesh.hpp) share: values of sorted points to a mesh of two spacings and back,
+// What two preconditioners (particle_mesh.hpp, point_mesh.hpp) share: values of sorted points to a mesh of
+// two spacings and back,
 //   c = B P^T v,   P: bilinear from the mesh's nodes to the points,
 //   B: one cycle of BoxMultigrid on P^T m + sum_i a_i (lumped grad N . grad N)
-// Cells are a row of cellgrid's order, in 1-D the line, times as many bins as make them square, so that a cell's points follow each
-// other. A periodic axis closes with a cell as wide as is left. All passes are by rows of cells or blocks of points, without atomics:
-// results do not depend on the number of threads. Templates are defined in mesh_passes.hpp, for the files that use them.
+// Cells are a row of cellgrid's order, in 1-D the line, times as many bins as make them square, so that a
+// cell's points follow each other. A periodic axis closes with a cell as wide as is left. All passes are by
+// rows of cells or blocks of points, without atomics: results do not depend on the number of threads.
+// Templates are defined in mesh_passes.hpp, for the files that use them.
 #pragma once
 #include "cellgrid/particles/near.hpp"
 #include "kernels/linear/mesh/box_multigrid.hpp"
@@ -13,8 +15,9 @@ namespace freshet::linear {
 // The cells of the mesh: column i, row j; nodes are their corners.
 struct MeshCells {
   int columns = 0, rows = 0;
-  double x0 = 0, y0 = 0, width = 1, height = 1;   // m
-  double last_width = 1, last_height = 1;         // m, of the last column and row: not the same where the domain is periodic
+  double x0 = 0, y0 = 0, width = 1, height = 1;  // m
+  double last_width = 1,
+         last_height = 1;  // m, of the last column and row: not the same where the domain is periodic
 
   KOKKOS_FORCEINLINE_FUNCTION int size() const { return columns * rows; }
   KOKKOS_FORCEINLINE_FUNCTION double width_of(int i) const { return i + 1 == columns ? last_width : width; }
@@ -44,11 +47,11 @@ class MeshCorrection {
  private:
   MeshCells cells_;
   BoxMultigrid multigrid_;
-  Field<int> first_;      // point of each cell
-  Field<int> node_;       // south-west of each point
-  Field<double> fx_, fy_; // where in its cell, 0 to 1
-  Vector south_, north_;  // what a row of cells gives to the nodes below and above it
-  Vector c_;              // of the last cycle
+  Field<int> first_;       // point of each cell
+  Field<int> node_;        // south-west of each point
+  Field<double> fx_, fy_;  // where in its cell, 0 to 1
+  Vector south_, north_;   // what a row of cells gives to the nodes below and above it
+  Vector c_;               // of the last cycle
   int points_ = 0;
 };
 

@@ -11,9 +11,13 @@ struct Cells {
   BoxGrid grid;
   Field<int> first;
 
-  KOKKOS_FORCEINLINE_FUNCTION int begin(int row, int column) const { return first(row * mesh.columns + column); }
+  KOKKOS_FORCEINLINE_FUNCTION int begin(int row, int column) const {
+    return first(row * mesh.columns + column);
+  }
   // The row of cells whose north nodes are those of node row j, -1: none.
-  KOKKOS_FORCEINLINE_FUNCTION int below(int j) const { return j > 0 ? j - 1 : grid.wrap_y ? mesh.rows - 1 : -1; }
+  KOKKOS_FORCEINLINE_FUNCTION int below(int j) const {
+    return j > 0 ? j - 1 : grid.wrap_y ? mesh.rows - 1 : -1;
+  }
   // Whether all nodes are on one line: the cells have no north.
   KOKKOS_FORCEINLINE_FUNCTION bool line() const { return grid.ny == 1 && !grid.wrap_y; }
 };
@@ -40,10 +44,8 @@ struct ToNodes {
       south_east = east - corner;
       north_east = corner;
     }
-    if (cells.grid.wrap_x)
-      south(at) += south_east, north(at) += north_east;
-    else
-      south(at + columns) = south_east, north(at + columns) = north_east;
+    if (cells.grid.wrap_x) south(at) += south_east, north(at) += north_east;
+    else south(at + columns) = south_east, north(at + columns) = north_east;
   }
 };
 
@@ -57,12 +59,14 @@ struct AddRows {
     const int at = g.start(j), below = cells.below(j), from = g.start(below < 0 ? 0 : below);
     const double has_above = j < cells.mesh.rows ? 1 : 0, has_below = below < 0 ? 0 : 1;
     const int above = j < cells.mesh.rows ? at : g.start(0);
-    for (int i = 0; i < g.nx; ++i) result(at + i) = has_above * south(above + i) + has_below * north(from + i);
+    for (int i = 0; i < g.nx; ++i)
+      result(at + i) = has_above * south(above + i) + has_below * north(from + i);
     g.wrap(result, j);
   }
 };
 
-// Conductances: a / width^2 of the points of a cell shared between its south and north, a / height^2 between its west and east.
+// Conductances: a / width^2 of the points of a cell shared between its south and north, a / height^2 between
+// its west and east.
 template <class Area>
 struct Conductances {
   Cells cells;
@@ -101,7 +105,8 @@ void MeshCorrection<D>::set(const Mass& mass, const Area& area) {
   const Range of_cells(0, cells_.rows), of_nodes(0, level.grid.ny);
   launch("mesh_correction::masses", of_cells, ToNodes<Mass>{cells, fx_, fy_, mass, south_, north_});
   launch("mesh_correction::add_masses", of_nodes, AddRows{cells, south_, north_, level.mass});
-  launch("mesh_correction::conductances", of_cells, Conductances<Area>{cells, fx_, fy_, area, south_, north_, level.north});
+  launch("mesh_correction::conductances", of_cells,
+         Conductances<Area>{cells, fx_, fy_, area, south_, north_, level.north});
   launch("mesh_correction::add_conductances", of_nodes, AddRows{cells, south_, north_, level.east});
   multigrid_.coarsen();
 }
@@ -111,7 +116,8 @@ template <class Value>
 void MeshCorrection<D>::solve(const Value& value) {
   const BoxLevel& level = multigrid_.finest();
   const Cells cells{cells_, level.grid, first_};
-  launch("mesh_correction::to_nodes", Range(0, cells_.rows), ToNodes<Value>{cells, fx_, fy_, value, south_, north_});
+  launch("mesh_correction::to_nodes", Range(0, cells_.rows),
+         ToNodes<Value>{cells, fx_, fy_, value, south_, north_});
   launch("mesh_correction::add_rows", Range(0, level.grid.ny), AddRows{cells, south_, north_, level.right});
   c_ = multigrid_.cycle();
 }

@@ -15,7 +15,9 @@ struct WetCells {
 struct Conducts {
   Field<double> mass, depth;
   double k;
-  KOKKOS_FORCEINLINE_FUNCTION double operator()(int i) const { return mass(i) > 0 ? k * mass(i) * depth(i) : 0.0; }
+  KOKKOS_FORCEINLINE_FUNCTION double operator()(int i) const {
+    return mass(i) > 0 ? k * mass(i) * depth(i) : 0.0;
+  }
 };
 
 }  // namespace

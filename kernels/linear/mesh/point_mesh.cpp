@@ -14,7 +14,8 @@ struct Weighted {
 
 }  // namespace
 
-void PointMesh::build(const Rows& rows, const VecField<double, 2>& x, int points, const Period& period, const MeshWeights& weights) {
+void PointMesh::build(const Rows& rows, const VecField<double, 2>& x, int points, const Period& period,
+                      const MeshWeights& weights) {
   const TimedRegion region("point_mesh::build");
   points_ = points;
   weight_ = weights.weight;

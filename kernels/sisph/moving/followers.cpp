@@ -7,10 +7,12 @@
 namespace freshet::sisph {
 namespace {
 
-KOKKOS_FORCEINLINE_FUNCTION Vec<double, 1> clamped(const Vec<double, 1>& p, const Vec<double, 1>& low, const Vec<double, 1>& high) {
+KOKKOS_FORCEINLINE_FUNCTION Vec<double, 1> clamped(const Vec<double, 1>& p, const Vec<double, 1>& low,
+                                                   const Vec<double, 1>& high) {
   return {clamp(p.x, low.x, high.x)};
 }
-KOKKOS_FORCEINLINE_FUNCTION Vec<double, 2> clamped(const Vec<double, 2>& p, const Vec<double, 2>& low, const Vec<double, 2>& high) {
+KOKKOS_FORCEINLINE_FUNCTION Vec<double, 2> clamped(const Vec<double, 2>& p, const Vec<double, 2>& low,
+                                                   const Vec<double, 2>& high) {
   return {clamp(p.x, low.x, high.x), clamp(p.y, low.y, high.y)};
 }
 
@@ -19,7 +21,8 @@ Field<int> integers(const std::string& label, int n) { return Field<int>(label, 
 }  // namespace
 
 template <int D>
-Followers<D>::Followers(int particles, const Origin& start) : place_(integers("sisph.place_of_id", particles)) {
+Followers<D>::Followers(int particles, const Origin& start)
+    : place_(integers("sisph.place_of_id", particles)) {
   list(particles, leaders(particles, start));
   locate(particles, start.id);
 }
@@ -32,7 +35,8 @@ Field<int> Followers<D>::leaders(int particles, const Origin& start) const {
   const Field<int> id = start.id, kind = start.kind;
   const Vec<double, D> low = start.low, high = start.high;
   const double far = 2 * start.spacing;
-  launch("sisph::find_leaders", Range(0, particles), KOKKOS_LAMBDA(int i) {
+  launch(
+      "sisph::find_leaders", Range(0, particles), KOKKOS_LAMBDA(int i) {
         const Vec<double, D> side = clamped(at(x, i), low, high);
         double least = far * far;
         int nearest = -1;
@@ -52,11 +56,14 @@ Field<int> Followers<D>::leaders(int particles, const Origin& start) const {
 
 template <int D>
 void Followers<D>::list(int particles, const Field<int>& leader) {
-  Kokkos::parallel_reduce("sisph::count_followers", Range(0, particles), KOKKOS_LAMBDA(int i, int& n) { n += leader(i) >= 0 ? 1 : 0; }, count_);
+  Kokkos::parallel_reduce(
+      "sisph::count_followers", Range(0, particles),
+      KOKKOS_LAMBDA(int i, int& n) { n += leader(i) >= 0 ? 1 : 0; }, count_);
   follower_ = integers("sisph.followers", count_);
   leader_ = integers("sisph.leaders", count_);
   const Field<int> from = follower_, to = leader_;
-  Kokkos::parallel_scan("sisph::list_followers", Range(0, particles), KOKKOS_LAMBDA(int i, int& n, bool last) {
+  Kokkos::parallel_scan(
+      "sisph::list_followers", Range(0, particles), KOKKOS_LAMBDA(int i, int& n, bool last) {
         if (leader(i) < 0) return;
         if (last) from(n) = i, to(n) = leader(i);
         ++n;
@@ -67,15 +74,17 @@ template <int D>
 void Followers<D>::locate(int particles, const Field<int>& id) {
   if (count_ == 0) return;
   const Field<int> place = place_;
-  launch("sisph::locate", Range(0, particles), KOKKOS_LAMBDA(int i) { place(id(i)) = i; });
+  launch(
+      "sisph::locate", Range(0, particles), KOKKOS_LAMBDA(int i) { place(id(i)) = i; });
 }
 
 template <int D>
 void Followers<D>::follow(const VecField<double, D>& v) const {
   if (count_ == 0) return;
   const Field<int> place = place_, follower = follower_, leader = leader_;
-  launch("sisph::follow", Range(0, count_),
-         KOKKOS_LAMBDA(int k) { put(v, place(follower(k)), at(v, place(leader(k)))); });
+  launch(
+      "sisph::follow", Range(0, count_),
+      KOKKOS_LAMBDA(int k) { put(v, place(follower(k)), at(v, place(leader(k)))); });
 }
 
 template class Followers<1>;

@@ -38,10 +38,11 @@ KOKKOS_FORCEINLINE_FUNCTION double level_at(const BedSpline<D>& bed, const Vec<d
 }  // namespace
 
 template <int D>
-MovingWater<D>::MovingWater(int particles, const AnyKernel<D>& kernel, const MirrorWalls<D>& walls, const MovingOptions& options)
+MovingWater<D>::MovingWater(int particles, const AnyKernel<D>& kernel, const MirrorWalls<D>& walls,
+                            const MovingOptions& options)
     : options_(options), shapes_{kernel, {}, options.held_moment, options.linear}, walls_(walls) {
-  for (Field<double>* f : {&inertia_, &rise_, &last_, &level_, &change_, &correction_, &right_, &diagonal_, &inverse_, &zero_, &g_.omega, &g_.moment,
-                           &g_.free})
+  for (Field<double>* f : {&inertia_, &rise_, &last_, &level_, &change_, &correction_, &right_, &diagonal_,
+                           &inverse_, &zero_, &g_.omega, &g_.moment, &g_.free})
     *f = scalar(particles);
   g_.inverse = matrices(particles, Vec<double, D>{});
   cg_.resize(particles);
@@ -59,7 +60,8 @@ void MovingWater<D>::visit_all(int slices) {
   g_.slices.count = slices;
   if (g_.slices.list.extent_int(0) >= slices) return;
   const Field<int> all("sisph.slices", static_cast<size_t>(slices + slices / 8));
-  launch("sisph::number_slices", Range(0, all.extent_int(0)), KOKKOS_LAMBDA(int s) { all(s) = s; });
+  launch(
+      "sisph::number_slices", Range(0, all.extent_int(0)), KOKKOS_LAMBDA(int s) { all(s) = s; });
   g_.slices.list = all;
 }
 
@@ -73,7 +75,8 @@ void MovingWater<D>::make_room() {
   visit_all(g_.pairs.slices());
   const int wanted = g_.images.slots(), had = end_.x.extent_int(0) - lanes;
   if (had >= wanted) return;
-  for (VecField<double, D>* v : {&mixed_, &slope_, &end_, &g_.x, &gradient_.u}) make_longer(*v, wanted + g_.images.count / 4);
+  for (VecField<double, D>* v : {&mixed_, &slope_, &end_, &g_.x, &gradient_.u})
+    make_longer(*v, wanted + g_.images.count / 4);
   if (D == 2) make_longer(gradient_.v, wanted + g_.images.count / 4);
 }
 
@@ -99,7 +102,8 @@ void MovingWater<D>::start(const Swarm<D>& now) {
   const Swarm<D> at_n = now;
   const VecField<double, D> end = end_;
   const Field<double> last = last_, change = change_, free = g_.free;
-  launch("sisph::start_step", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) {
+  launch(
+      "sisph::start_step", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) {
         put(end, i, at(at_n.v, i));
         last(i) = at_n.depth(i);
         change(i) = 0;
@@ -115,7 +119,8 @@ void MovingWater<D>::place(const Swarm<D>& now, const BedSpline<D>* bed, const P
   const Geometry<D> g = g_;
   const VecField<double, D> end = end_;
   const Field<double> last = last_, inertia = inertia_, rise = rise_;
-  launch("sisph::place_midway", Range(0, g.pairs.particles), KOKKOS_LAMBDA(int i) {
+  launch(
+      "sisph::place_midway", Range(0, g.pairs.particles), KOKKOS_LAMBDA(int i) {
         const double mid = 0.5 * (at_n.depth(i) + last(i));
         put(g.x, i, at(at_n.x, i) + (0.5 * dt) * (w.half_start * at(at_n.v, i) + w.half_end * at(end, i)));
         g.omega(i) = at_n.mass(i) / mid;
@@ -125,7 +130,8 @@ void MovingWater<D>::place(const Swarm<D>& now, const BedSpline<D>* bed, const P
   if (!bed) return;
   const BedSpline<D> ground = *bed;
   const bool remembers = at_n.before.x.extent(0) > 0;
-  launch("sisph::rise_of_bed", Range(0, g.pairs.particles), KOKKOS_LAMBDA(int i) {
+  launch(
+      "sisph::rise_of_bed", Range(0, g.pairs.particles), KOKKOS_LAMBDA(int i) {
         Vec<double, D> to = at(at_n.x, i) + dt * (w.start * at(at_n.v, i) + w.end * at(end, i));
         if (remembers) to += (dt * w.before) * at(at_n.before, i);
         rise(i) = level_at(ground, to) - at_n.bed(i);
@@ -138,7 +144,8 @@ void MovingWater<D>::place_images(const Swarm<D>& now) {
   if (g_.images.count == 0) return;
   const Images<D> images = g_.images;
   const VecField<double, D> from = listed_, x = now.x, to = g_.x;
-  launch("sisph::move_images", Range(0, images.count), KOKKOS_LAMBDA(int k) {
+  launch(
+      "sisph::move_images", Range(0, images.count), KOKKOS_LAMBDA(int k) {
         const int slot = images.first + k, j = images.source(k);
         put(to, slot, at(from, slot) + images.of(images.reflection, k) * (at(to, j) - at(x, j)));
       });
@@ -148,9 +155,11 @@ void MovingWater<D>::place_images(const Swarm<D>& now) {
 template <int D>
 void MovingWater<D>::find_levels(const Swarm<D>& now) {
   const Swarm<D> at_n = now;
-  const Field<double> bed = now.bed.extent(0) > 0 ? now.bed : zero_, level = level_, change = change_, rise = rise_, free = g_.free;
+  const Field<double> bed = now.bed.extent(0) > 0 ? now.bed : zero_, level = level_, change = change_,
+                      rise = rise_, free = g_.free;
   const double theta = options_.theta;
-  launch("sisph::levels", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) {
+  launch(
+      "sisph::levels", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) {
         if (free(i) < 0.5) change(i) = rise(i);
         level(i) = bed(i) + at_n.depth(i) + theta * change(i);
       });
@@ -160,7 +169,8 @@ template <int D>
 double MovingWater<D>::find_jump(const VecField<double, D>& v) {
   g_.images.fill(v);
   double most = 0;
-  Kokkos::parallel_reduce("sisph::jump", Range(0, g_.slices.count), LargestJump<D>{g_, v}, Kokkos::Max<double>(most));
+  Kokkos::parallel_reduce("sisph::jump", Range(0, g_.slices.count), LargestJump<D>{g_, v},
+                          Kokkos::Max<double>(most));
   return std::sqrt(most);
 }
 
@@ -168,8 +178,9 @@ template <int D>
 double MovingWater<D>::find_least_depth() {
   const Field<double> last = last_;
   double least = 0;
-  Kokkos::parallel_reduce("sisph::shallowest", Range(0, g_.pairs.particles),
-                          KOKKOS_LAMBDA(int i, double& m) { m = smaller(m, last(i)); }, Kokkos::Min<double>(least));
+  Kokkos::parallel_reduce(
+      "sisph::shallowest", Range(0, g_.pairs.particles),
+      KOKKOS_LAMBDA(int i, double& m) { m = smaller(m, last(i)); }, Kokkos::Min<double>(least));
   return least;
 }
 
@@ -181,7 +192,8 @@ void MovingWater<D>::measure_jump(const Swarm<D>& now) {
 }
 
 template <int D>
-MovingReport MovingWater<D>::attempt(const Swarm<D>& now, const BedSpline<D>* bed, const PathWeights& path, double dt) {
+MovingReport MovingWater<D>::attempt(const Swarm<D>& now, const BedSpline<D>* bed, const PathWeights& path,
+                                     double dt) {
   MovingReport report;
   list_pairs(now, reach(dt, jump_));
   followers_.locate(g_.pairs.particles, now.id);
@@ -207,13 +219,15 @@ MovingReport MovingWater<D>::attempt(const Swarm<D>& now, const BedSpline<D>* be
 }
 
 template <int D>
-void MovingWater<D>::arrive(const Swarm<D>& now, const BedSpline<D>* bed, const PathWeights& path, double dt) {
+void MovingWater<D>::arrive(const Swarm<D>& now, const BedSpline<D>* bed, const PathWeights& path,
+                            double dt) {
   const Swarm<D> at_n = now;
   const PathWeights w = path;
   const VecField<double, D> end = end_;
   const Field<double> last = last_, free = g_.free;
   const bool remembers = at_n.before.x.extent(0) > 0;
-  launch("sisph::arrive", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) {
+  launch(
+      "sisph::arrive", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) {
         const Vec<double, D> v = at(at_n.v, i);
         Vec<double, D> to = at(at_n.x, i) + dt * (w.start * v + w.end * at(end, i));
         if (remembers) {
@@ -227,8 +241,9 @@ void MovingWater<D>::arrive(const Swarm<D>& now, const BedSpline<D>* bed, const 
   jump_ = tried_;
   if (!bed) return;
   const BedSpline<D> ground = *bed;
-  launch("sisph::find_bed", Range(0, g_.pairs.particles),
-         KOKKOS_LAMBDA(int i) { at_n.bed(i) = level_at(ground, at(at_n.x, i)); });
+  launch(
+      "sisph::find_bed", Range(0, g_.pairs.particles),
+      KOKKOS_LAMBDA(int i) { at_n.bed(i) = level_at(ground, at(at_n.x, i)); });
 }
 
 template class MovingWater<1>;

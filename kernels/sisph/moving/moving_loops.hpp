@@ -10,7 +10,9 @@ template <int D, class Difference>
 KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, D> slope_of(const Geometry<D>& g, int s, const Difference& difference) {
   const Lanes me = g.pairs(s);
   Vec<Lane, D> sum;
-  g.pairs.for_each(s, [&](int e, PairIndex j) { sum += (PairView::load(g.weight, e) * difference(j)) * PairView::load(g.n, e); });
+  g.pairs.for_each(s, [&](int e, PairIndex j) {
+    sum += (PairView::load(g.weight, e) * difference(j)) * PairView::load(g.n, e);
+  });
   return me.load(g.inverse) * sum;
 }
 
@@ -31,7 +33,8 @@ struct Predict {
     const Lanes me = g.pairs(s);
     const Lane eta = me.load(level);
     const Vec<Lane, D> up = slope_of(g, s, [&](const PairIndex& j) { return gather(level.data(), j) - eta; });
-    const Vec<Lane, D> before = me.load(v), end = slowed(me, drag) * (before - (impulse * free_lanes(g, me)) * up);
+    const Vec<Lane, D> before = me.load(v),
+                       end = slowed(me, drag) * (before - (impulse * free_lanes(g, me)) * up);
     me.store(slope, up);
     me.store(mixed, before + Lane(theta) * (end - before));
   }
@@ -49,7 +52,8 @@ struct Increment {
     const Lanes me = g.pairs(s);
     const Vec<Lane, D> vi = me.load(mixed), up = me.load(slope);
     const Sym<Lane, D> scale = me.load(g.inverse);
-    const Lane mass = me.load(inertia), omega = me.load(g.omega), free = free_lanes(g, me), eta = me.load(level);
+    const Lane mass = me.load(inertia), omega = me.load(g.omega), free = free_lanes(g, me),
+               eta = me.load(level);
     Lane held_back(0.0);
     if constexpr (dragged) held_back = 0.5 * me.load(drag);
     Lane spread(0.0), rough(0.0), sum = mass;
@@ -63,7 +67,8 @@ struct Increment {
       spread += PairView::load(g.weight, e) * dot(gather(mixed, j) - vi, scale * n);
       rough += aij * (gather(level.data(), j) - eta - 0.5 * d * dot(gather(slope, j) + up, n));
     });
-    const Lane b = free * (mass * (me.load(rise) - me.load(change)) - dt * omega * spread + (1 / theta) * rough);
+    const Lane b =
+        free * (mass * (me.load(rise) - me.load(change)) - dt * omega * spread + (1 / theta) * rough);
     me.store(right, b);
     me.store(diagonal, sum);
     me.store(inverse, free / sum);
@@ -82,7 +87,8 @@ struct Correct {
   KOKKOS_FUNCTION void operator()(int s) const {
     const Lanes me = g.pairs(s);
     const Lane mine = me.load(correction), total = me.load(change) + mine;
-    const Vec<Lane, D> more = slope_of(g, s, [&](const PairIndex& j) { return gather(correction.data(), j) - mine; });
+    const Vec<Lane, D> more =
+        slope_of(g, s, [&](const PairIndex& j) { return gather(correction.data(), j) - mine; });
     const Vec<Lane, D> up = me.load(slope) + Lane(theta) * more;
     me.store(end, slowed(me, drag) * (me.load(v) - (impulse * free_lanes(g, me)) * up));
     me.store(change, total);
@@ -92,16 +98,18 @@ struct Correct {
 
 KOKKOS_FORCEINLINE_FUNCTION Lane size2(Lane omega, Vec<double, 1>) { return omega * omega; }
 KOKKOS_FORCEINLINE_FUNCTION Lane size2(Lane omega, Vec<double, 2>) { return omega; }
-KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 1> along(const VelocityGradient<1>& f, const Lanes& me, const PairIndex& j, const Vec<Lane, 1>& n) {
+KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 1> along(const VelocityGradient<1>& f, const Lanes& me,
+                                               const PairIndex& j, const Vec<Lane, 1>& n) {
   return {dot(me.load(f.u) + gather(f.u, j), n)};
 }
-KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 2> along(const VelocityGradient<2>& f, const Lanes& me, const PairIndex& j, const Vec<Lane, 2>& n) {
+KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 2> along(const VelocityGradient<2>& f, const Lanes& me,
+                                               const PairIndex& j, const Vec<Lane, 2>& n) {
   return {dot(me.load(f.u) + gather(f.u, j), n), dot(me.load(f.v) + gather(f.v, j), n)};
 }
 
-// v + share min(1, sharp |r| dt / dx) r,   r_i = dx_i^2 / omega_i sum_j A_ij / d_ij [v_j - v_i - d_ij (grad v_i + grad v_j) n_ij / 2],
-// dx_i^D = omega_i: what moves neighbours against each other decays before it has moved them a spacing / sharp or so, and smooth
-// velocities hardly feel it.
+// v + share min(1, sharp |r| dt / dx) r,   r_i = dx_i^2 / omega_i sum_j A_ij / d_ij [v_j - v_i - d_ij (grad
+// v_i + grad v_j) n_ij / 2], dx_i^D = omega_i: what moves neighbours against each other decays before it has
+// moved them a spacing / sharp or so, and smooth velocities hardly feel it.
 template <int D>
 struct Even {
   Geometry<D> g;
@@ -117,7 +125,8 @@ struct Even {
     const Lane omega = me.load(g.omega), scale = free_lanes(g, me) * size2(omega, Vec<double, D>{}) / omega;
     Vec<Lane, D> sum;
     g.pairs.for_each(s, [&](int e, PairIndex j) {
-      const Lane d = PairView::load(g.distance, e), w = gather(g.free.data(), j) * PairView::load(g.area, e) / d;
+      const Lane d = PairView::load(g.distance, e),
+                 w = gather(g.free.data(), j) * PairView::load(g.area, e) / d;
       sum += w * (gather(v, j) - vi - (0.5 * d) * along(gradient, me, j, PairView::load(g.n, e)));
     });
     const Vec<Lane, D> rough = scale * sum;

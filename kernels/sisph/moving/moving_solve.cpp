@@ -22,12 +22,14 @@ template <int D>
 void MovingWater<D>::lay_mesh(double stiffness) {
   if (!mesh_) mesh_.emplace();
   if (mesh_mass_.extent(0) == 0)
-    for (Field<double>* f : {&mesh_mass_, &mesh_depth_}) *f = Field<double>("sisph.mesh_rows", inertia_.extent(0));
+    for (Field<double>* f : {&mesh_mass_, &mesh_depth_})
+      *f = Field<double>("sisph.mesh_rows", inertia_.extent(0));
   if (!laid_) mesh_->lay(rows_, listed_, g_.pairs.particles);
   laid_ = true;
   const Geometry<D> g = g_;
   const Field<double> inertia = inertia_, mass = mesh_mass_, depth = mesh_depth_;
-  launch("sisph::mesh_rows", Range(0, g.pairs.particles), KOKKOS_LAMBDA(int i) {
+  launch(
+      "sisph::mesh_rows", Range(0, g.pairs.particles), KOKKOS_LAMBDA(int i) {
         mass(i) = g.free(i) * inertia(i);
         depth(i) = g.omega(i) / inertia(i);
       });
@@ -37,14 +39,17 @@ void MovingWater<D>::lay_mesh(double stiffness) {
 template <int D>
 linear::CgReport MovingWater<D>::solve_linear(const linear::CgOptions& options, double stiffness) {
   const auto product = [&](const Field<double>& x, const Field<double>& y) {
-    return sum_of_slices<1>("sisph::product", g_.slices.count,
-                            linear::PairProduct<SliceList>{g_.pairs, g_.slices, {a_}, diagonal_, g_.free, x, y})[0];
+    return sum_of_slices<1>(
+        "sisph::product", g_.slices.count,
+        linear::PairProduct<SliceList>{g_.pairs, g_.slices, {a_}, diagonal_, g_.free, x, y})[0];
   };
-  constexpr double most = 24;  // cells of the mesh for a particle: few that have flown far must not make it huge
+  constexpr double most =
+      24;  // cells of the mesh for a particle: few that have flown far must not make it huge
   const bool suits = linear::MeshCorrection<D>::suits(rows_, g_.pairs.particles, most);
   if (!mesh_on_ || !suits) return cg_.solve(product, linear::Jacobi{inverse_}, right_, correction_, options);
   lay_mesh(stiffness);
-  return cg_.solve(product, linear::JacobiPlus<linear::ParticleMesh<D>>{inverse_, *mesh_}, right_, correction_, options);
+  return cg_.solve(product, linear::JacobiPlus<linear::ParticleMesh<D>>{inverse_, *mesh_}, right_,
+                   correction_, options);
 }
 
 // Returns |b| and |omega|.
@@ -55,8 +60,9 @@ std::pair<double, double> MovingWater<D>::set_system(const Swarm<D>& now, double
     return std::pair<double, double>{std::sqrt(squares[0]), std::sqrt(squares[1])};
   };
   const auto with = [&](auto dragged) {
-    return Increment<D, decltype(dragged)::value>{g_,       mixed_, slope_, level_,    change_,  inertia_,  rise_,          now.drag,
-                                                  a_,       right_, diagonal_, inverse_, stiffness, options_.theta, dt};
+    return Increment<D, decltype(dragged)::value>{
+        g_, mixed_, slope_,    level_,   change_,   inertia_,       rise_, now.drag,
+        a_, right_, diagonal_, inverse_, stiffness, options_.theta, dt};
   };
   return now.drag.extent(0) > 0 ? set(with(std::true_type{})) : set(with(std::false_type{}));
 }
@@ -74,7 +80,8 @@ void MovingWater<D>::solve_increment(const Swarm<D>& now, double dt, MovingRepor
   scale_ = std::max({right, again ? scale_ : 0.0, round_off / cg.tolerance * omega});
   cg.scale = scale_;
   const linear::CgReport solved = solve_linear(cg, stiffness);
-  if (solved.iterations > options_.mesh_from || (mesh_on_ && !again)) set_meshed(solved.iterations > options_.mesh_until);
+  if (solved.iterations > options_.mesh_from || (mesh_on_ && !again))
+    set_meshed(solved.iterations > options_.mesh_until);
   ++report.solves;
   report.iterations += solved.iterations;
   report.residual = solved.residual;
@@ -84,12 +91,13 @@ void MovingWater<D>::solve_increment(const Swarm<D>& now, double dt, MovingRepor
 template <int D>
 void MovingWater<D>::correct(const Swarm<D>& now, double dt) {
   launch("sisph::correct", Range(0, g_.slices.count),
-         Correct<D>{g_, correction_, change_, now.depth, rise_, last_, now.drag, slope_, now.v, end_, options_.gravity * dt,
-                    options_.theta});
+         Correct<D>{g_, correction_, change_, now.depth, rise_, last_, now.drag, slope_, now.v, end_,
+                    options_.gravity * dt, options_.theta});
   followers_.follow(end_);
 }
 
-// Takes from v^{n+1} the waves between neighbours that neither div nor grad sees: they would stay for good and pair particles up.
+// Takes from v^{n+1} the waves between neighbours that neither div nor grad sees: they would stay for good
+// and pair particles up.
 template <int D>
 void MovingWater<D>::even_out(double dt) {
   velocity_gradient<D>(g_, g_.slices, {last_, zero_, end_}, gradient_);

@@ -1,6 +1,7 @@
-// Paths of particles whose velocities are known at the ends of a step: places as weighted sums of velocities (Bankole 2016,
-// (5.51)-(5.59), L(r) the particle's own velocity; docs/formulas/sisph.md (I36)):
-//   x^{n+1} = x^n + dt (before v^{n-1} + start v^n + end v^{n+1}),   x^{n+1/2} = x^n + dt/2 (half_start v^n + half_end v^{n+1})
+// Paths of particles whose velocities are known at the ends of a step: places as weighted sums of velocities
+// (Bankole 2016, (5.51)-(5.59), L(r) the particle's own velocity; docs/formulas/sisph.md (I36)):
+//   x^{n+1} = x^n + dt (before v^{n-1} + start v^n + end v^{n+1}),   x^{n+1/2} = x^n + dt/2 (half_start v^n +
+//   half_end v^{n+1})
 // The middle is where the geometry of the step is taken.
 #pragma once
 #include <vector>
@@ -24,8 +25,9 @@ inline PathWeights euler_path(const PathStep&) { return {0, 1, 0, 1, 0}; }
 inline PathWeights rk2_path(const PathStep&) { return {0, 0.5, 0.5, 0.5, 0.5}; }
 // Drift, kick, drift: places at the middle of steps follow each other by whole steps of v (5.57).
 inline PathWeights leap_frog_path(const PathStep&) { return {0, 0.5, 0.5, 1, 0}; }
-// The "optimal" one of third order (5.54)-(5.56): 1/6, 1/6 and 2/3 of the velocities at the start, the end and the middle. That at
-// the middle lies on the parabola through v^{n-1}, v^n and v^{n+1}; without a step before v is linear.
+// The "optimal" one of third order (5.54)-(5.56): 1/6, 1/6 and 2/3 of the velocities at the start, the end
+// and the middle. That at the middle lies on the parabola through v^{n-1}, v^n and v^{n+1}; without a step
+// before v is linear.
 inline PathWeights rk3_path(const PathStep& s) {
   const double at_half = s.last > 0 ? s.dt / (s.last + s.dt) : 0, most = 2.0 / 3;
   const double before = s.last > 0 ? -0.25 * s.dt / s.last * at_half : 0;
@@ -41,7 +43,8 @@ struct ParticlePath {
 };
 
 inline std::vector<ParticlePath> particle_paths() {
-  return {{}, {"euler", euler_path}, {"rk2", rk2_path}, {"rk3", rk3_path, true}, {"leap-frog", leap_frog_path}};
+  return {
+      {}, {"euler", euler_path}, {"rk2", rk2_path}, {"rk3", rk3_path, true}, {"leap-frog", leap_frog_path}};
 }
 
 }  // namespace freshet::sisph

@@ -29,7 +29,9 @@ struct RimSlope {
   }
 
  private:
-  static KOKKOS_FORCEINLINE_FUNCTION Sym<double, 1> outer(double f, const Vec<double, 1>& d) { return {f * d.x * d.x}; }
+  static KOKKOS_FORCEINLINE_FUNCTION Sym<double, 1> outer(double f, const Vec<double, 1>& d) {
+    return {f * d.x * d.x};
+  }
   static KOKKOS_FORCEINLINE_FUNCTION Sym<double, 2> outer(double f, const Vec<double, 2>& d) {
     return {f * d.x * d.x, f * d.x * d.y, f * d.y * d.y};
   }
@@ -60,13 +62,16 @@ struct TraceBack {
     put(foot_v, k, found.v);
     const double fall = away > 0 ? dt * w.gravity * (found.bed - w.water.bed(i)) / away : 0.0;  // dt g S0.n
     double drag = 0;
-    if (w.g_n2.extent(0) > 0 && depth > 0) drag = dt * w.g_n2(i) * root(dot(found.v, found.v)) / (depth * ::cbrt(depth));
+    if (w.g_n2.extent(0) > 0 && depth > 0)
+      drag = dt * w.g_n2(i) * root(dot(found.v, found.v)) / (depth * ::cbrt(depth));
     foot_out(k) = (normal + fall) / (1 + drag);
   }
 };
 
 VecField<double, 1> vectors(std::size_t n, Vec<double, 1>) { return {Field<double>("sisph.rim_x", n)}; }
-VecField<double, 2> vectors(std::size_t n, Vec<double, 2>) { return {Field<double>("sisph.rim_x", n), Field<double>("sisph.rim_y", n)}; }
+VecField<double, 2> vectors(std::size_t n, Vec<double, 2>) {
+  return {Field<double>("sisph.rim_x", n), Field<double>("sisph.rim_y", n)};
+}
 
 // Of the water at rest.
 template <int D>
@@ -85,12 +90,13 @@ std::vector<RimRecord> records(const std::vector<RimPlace<D>>& places, const Tra
 }  // namespace
 
 template <int D>
-OpenRim<D>::OpenRim(std::vector<LawInTime> laws, const std::vector<RimPlace<D>>& places, const TracedWater<D>& traced)
+OpenRim<D>::OpenRim(std::vector<LawInTime> laws, const std::vector<RimPlace<D>>& places,
+                    const TracedWater<D>& traced)
     : count_(static_cast<int>(places.size())),
       laws_(std::move(laws), records(places, traced), traced.gravity, traced.spacing, D == 1),
-      velocity_(vectors(places.size(), Vec<double, D>{})),
-      foot_depth_("sisph.rim_foot_depth", places.size()), foot_out_("sisph.rim_foot_out", places.size()),
-      depth_("sisph.rim_depth", places.size()), foot_v_(vectors(places.size(), Vec<double, D>{})), flux_("sisph.rim_flux", 2) {
+      velocity_(vectors(places.size(), Vec<double, D>{})), foot_depth_("sisph.rim_foot_depth", places.size()),
+      foot_out_("sisph.rim_foot_out", places.size()), depth_("sisph.rim_depth", places.size()),
+      foot_v_(vectors(places.size(), Vec<double, D>{})), flux_("sisph.rim_flux", 2) {
   std::vector<int> particle;
   std::vector<double> across, along, width;
   for (const RimPlace<D>& p : places) {
@@ -118,7 +124,8 @@ template <int D>
 void OpenRim<D>::turn_velocities() {
   const VecField<double, D> n = n_, foot = foot_v_, velocity = velocity_;
   const Field<double> out = foot_out_;
-  launch("sisph::turn", Range(0, count_), KOKKOS_LAMBDA(int k) {
+  launch(
+      "sisph::turn", Range(0, count_), KOKKOS_LAMBDA(int k) {
         const Vec<double, D> across = at(n, k), at_foot = at(foot, k);
         const Vec<double, D> along = at_foot - dot(at_foot, across) * across;
         put(velocity, k, out(k) * across + (out(k) > 0 ? 1.0 : 0.0) * along);
@@ -126,10 +133,12 @@ void OpenRim<D>::turn_velocities() {
 }
 
 template <int D>
-void OpenRim<D>::impose(const Field<double>& bed, const Field<double>& level, const Field<double>& depth) const {
+void OpenRim<D>::impose(const Field<double>& bed, const Field<double>& level,
+                        const Field<double>& depth) const {
   const Field<int> particle = particle_;
   const Field<double> found = depth_;
-  launch("sisph::impose_rim", Range(0, count_), KOKKOS_LAMBDA(int k) {
+  launch(
+      "sisph::impose_rim", Range(0, count_), KOKKOS_LAMBDA(int k) {
         const int i = particle(k);
         depth(i) = found(k);
         level(i) = bed(i) + found(k);
@@ -147,10 +156,12 @@ void OpenRim<D>::set_before(const RimPush<D>& push, const VecField<double, D>& b
   const VecField<double, D> next = velocity_, to = before;
   const RimPush<D> by = push;
   const bool dragged = push.drag.extent(0) > 0;
-  launch("sisph::rim_before", Range(0, count_), KOKKOS_LAMBDA(int k) {
+  launch(
+      "sisph::rim_before", Range(0, count_), KOKKOS_LAMBDA(int k) {
         const int i = particle(k);
         const double per = dragged ? 1 / (1 + by.drag(i)) : 1.0;
-        put(to, i, by.theta * (at(next, k) + (by.impulse * per) * at(by.slope, i)) + (1 - by.theta) * at(by.v, i));
+        put(to, i,
+            by.theta * (at(next, k) + (by.impulse * per) * at(by.slope, i)) + (1 - by.theta) * at(by.v, i));
       });
 }
 
@@ -158,7 +169,8 @@ template <int D>
 void OpenRim<D>::set_end(const VecField<double, D>& end) const {
   const Field<int> particle = particle_;
   const VecField<double, D> next = velocity_, to = end;
-  launch("sisph::rim_end", Range(0, count_), KOKKOS_LAMBDA(int k) { put(to, particle(k), at(next, k)); });
+  launch(
+      "sisph::rim_end", Range(0, count_), KOKKOS_LAMBDA(int k) { put(to, particle(k), at(next, k)); });
 }
 
 // One place after the other: a line has few, and the host need not wait for a sum.
@@ -168,7 +180,8 @@ void OpenRim<D>::account(double dt) {
   const auto flux = flux_;
   const int places = count_;
   const double before = started_ ? 0.5 * dt : 0.0, now = dt - before;
-  launch("sisph::rim_flux", Range(0, 1), KOKKOS_LAMBDA(int) {
+  launch(
+      "sisph::rim_flux", Range(0, 1), KOKKOS_LAMBDA(int) {
         OpenFlux rate;
         for (int k = 0; k < places; ++k) {
           const double q = -width(k) * depth(k) * out(k);

@@ -1,11 +1,12 @@
 // Open boundaries (docs/formulas/sisph.md (I28) to (I31)): particles behind the line (the rim) hold a state
 // that is found anew each step, at their own place:
 //   R = v.n + 2 c of the characteristic that leaves, traced back from the rim particle (any Courant number),
-//   plus the bed's slope and the friction on its way, (v.n + dt g S0.n) / (1 + dt gamma) in the velocity part;
-//   depth and velocity from R and the law of the boundary at time t + s / c, s the distance behind the line; an imposed level falls
-//   along the flow with the slope of friction, so that uniform flow stays uniform.
-// n points outwards. The rim's level is Dirichlet's condition of the matrix. Its velocity in the fluxes is the one before the
-// pressure at n+1, v^{n+1} + theta g dt grad eta / (1 + dt gamma).
+//   plus the bed's slope and the friction on its way, (v.n + dt g S0.n) / (1 + dt gamma) in the velocity
+//   part; depth and velocity from R and the law of the boundary at time t + s / c, s the distance behind the
+//   line; an imposed level falls along the flow with the slope of friction, so that uniform flow stays
+//   uniform.
+// n points outwards. The rim's level is Dirichlet's condition of the matrix. Its velocity in the fluxes is
+// the one before the pressure at n+1, v^{n+1} + theta g dt grad eta / (1 + dt gamma).
 #pragma once
 #include <vector>
 
@@ -59,7 +60,8 @@ class OpenRim {
   OpenFlux flux() const;  // since t = 0: what the water that crosses is held against
   int size() const { return count_; }
 
-  // The restart state: slow means of v.n and c at the feet; the flux since t = 0 and that of the last step's end.
+  // The restart state: slow means of v.n and c at the feet; the flux since t = 0 and that of the last step's
+  // end.
   std::vector<double> means() const { return laws_.means(); }
   void set_means(const std::vector<double>& means) { laws_.set_means(means); }
   std::vector<double> fluxes() const;
@@ -75,9 +77,9 @@ class OpenRim {
   VecField<double, D> n_, velocity_;             // velocity_: at n+1
   Field<double> foot_depth_, foot_out_, depth_;  // of the foot: depth, v.n with sources; depth_: at n+1
   VecField<double, D> foot_v_;
-  Field<double> width_;                          // m, of the line
-  Kokkos::View<OpenFlux*, Memory> flux_;         // since t = 0; of the last step's end, m3/s
-  bool started_ = false;                         // there was a step
+  Field<double> width_;                   // m, of the line
+  Kokkos::View<OpenFlux*, Memory> flux_;  // since t = 0; of the last step's end, m3/s
+  bool started_ = false;                  // there was a step
 };
 
 }  // namespace freshet::sisph

@@ -6,7 +6,6 @@
 namespace freshet::sisph {
 namespace {
 
-
 template <int D>
 struct Found {
   double level = 0, bed = 0;  // m
@@ -21,7 +20,9 @@ struct OpenFit {
   static constexpr int terms = D == 1 ? 3 : 6;
   using Terms = Column<double, terms>;
 
-  static KOKKOS_FORCEINLINE_FUNCTION Terms monomials(const Vec<double, 1>& a) { return {{1, a.x, a.x * a.x}}; }
+  static KOKKOS_FORCEINLINE_FUNCTION Terms monomials(const Vec<double, 1>& a) {
+    return {{1, a.x, a.x * a.x}};
+  }
   static KOKKOS_FORCEINLINE_FUNCTION Terms monomials(const Vec<double, 2>& a) {
     return {{1, a.x, a.y, a.x * a.x, a.x * a.y, a.y * a.y}};
   }
@@ -53,7 +54,8 @@ struct OpenFit {
     if (!found.wet) return found;
     Terms first{};
     first[0] = 1;
-    first = beside_dry ? Terms{{1 / m(0, 0)}} : Factored<double, terms>(m, Pivots<double>{least}).solve(first);
+    first =
+        beside_dry ? Terms{{1 / m(0, 0)}} : Factored<double, terms>(m, Pivots<double>{least}).solve(first);
     for_each(place, [&](int j, double weight, const Vec<double, D>& d) {
       if (!(w.water.depth(j) > 0)) return;
       const double share = weight * dot(first, monomials(d));
@@ -65,9 +67,12 @@ struct OpenFit {
   }
 };
 
-KOKKOS_FORCEINLINE_FUNCTION Vec<double, 1> solved(const Sym<double, 1>& m, const Vec<double, 1>& a) { return {m.xx > 0 ? a.x / m.xx : 0.0}; }
+KOKKOS_FORCEINLINE_FUNCTION Vec<double, 1> solved(const Sym<double, 1>& m, const Vec<double, 1>& a) {
+  return {m.xx > 0 ? a.x / m.xx : 0.0};
+}
 KOKKOS_FORCEINLINE_FUNCTION Vec<double, 2> solved(const Sym<double, 2>& m, const Vec<double, 2>& a) {
-  const double det = m.xx * m.yy - m.xy * m.xy, half = 0.5 * (m.xx + m.yy), per = det > 0.01 * half * half ? 1 / det : 0.0;
+  const double det = m.xx * m.yy - m.xy * m.xy, half = 0.5 * (m.xx + m.yy),
+               per = det > 0.01 * half * half ? 1 / det : 0.0;
   return {per * (m.yy * a.x - m.xy * a.y), per * (m.xx * a.y - m.xy * a.x)};
 }
 

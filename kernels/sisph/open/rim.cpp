@@ -30,14 +30,18 @@ template <int D>
 SliceList slices_with_held_neighbours(const Geometry<D>& geometry) {
   SliceList rim{Field<int>("sisph.rim", static_cast<size_t>(geometry.slices.count) + 1), 0};
   const Field<int> list = rim.list;
-  Kokkos::parallel_scan("sisph::list_rim", Range(0, geometry.slices.count), KOKKOS_LAMBDA(int k, int& count, bool last) {
+  Kokkos::parallel_scan(
+      "sisph::list_rim", Range(0, geometry.slices.count),
+      KOKKOS_LAMBDA(int k, int& count, bool last) {
         const int s = geometry.slices(k);
         Lane held(0.0);
-        geometry.pairs.for_each(s, [&](int, PairIndex j) { held = larger(held, 1.0 - gather(geometry.free.data(), j)); });
+        geometry.pairs.for_each(
+            s, [&](int, PairIndex j) { held = larger(held, 1.0 - gather(geometry.free.data(), j)); });
         if (largest(held) < 0.5) return;
         if (last) list(count) = s;
         ++count;
-      }, rim.count);
+      },
+      rim.count);
   return rim;
 }
 
@@ -49,10 +53,13 @@ Rim<D>::Rim(const Geometry<D>& g) : g_(g), list_(slices_with_held_neighbours(g))
 template <int D>
 RimFlow Rim<D>::flow(const FreeSurface<D>& surface, double dt, bool closed) {
   if (list_.count == 0) return {};
-  const auto sum = std::visit([&](const auto& a) {
-    const Crossing<D, std::decay_t<decltype(a)>> pass{g_, list_, a, surface.flux(), surface.level(), closed ? 0.0 : 1 / dt};
+  const auto sum = std::visit(
+      [&](const auto& a) {
+    const Crossing<D, std::decay_t<decltype(a)>> pass{
+        g_, list_, a, surface.flux(), surface.level(), closed ? 0.0 : 1 / dt};
     return sum_of_slices<2>("sisph::rim_flow", list_.count, pass);
-  }, surface.pairs());
+      },
+      surface.pairs());
   return {dt * sum[0], dt * sum[1]};
 }
 

@@ -2,9 +2,9 @@
 
 #include <type_traits>
 
-#include "cellgrid/simd/lanes.hpp"
 #include "cellgrid/parallel/launch.hpp"
 #include "cellgrid/parallel/on_device.hpp"
+#include "cellgrid/simd/lanes.hpp"
 
 namespace freshet::sisph {
 namespace {
@@ -76,18 +76,17 @@ struct FindStates {
 RimLaws::RimLaws(std::vector<LawInTime> laws, const std::vector<RimRecord>& places, double gravity,
                  double spacing, bool by_width)
     : gravity_(gravity), spacing_(spacing), by_width_(by_width), laws_(std::move(laws)),
-      place_(on_device("sisph.rim_places", places)),
-      mean_out_("sisph.rim_mean_out", places.size()),
-      mean_celerity_("sisph.rim_mean_celerity", places.size()),
-      shares_("sisph.rim_shares", 1) {}
+      place_(on_device("sisph.rim_places", places)), mean_out_("sisph.rim_mean_out", places.size()),
+      mean_celerity_("sisph.rim_mean_celerity", places.size()), shares_("sisph.rim_shares", 1) {}
 
 // One place after the other, as sums may not depend on the threads.
 void RimLaws::share(int opening, bool by_width, const Field<double>& foot_depth) const {
   const PortionOfPlace portion{place_, foot_depth, opening};
   const auto shares = shares_;
   const int places = place_.extent_int(0);
-  launch("sisph::rim_shares", Range(0, 1),
-         KOKKOS_LAMBDA(int) { shares(0) = DischargeShares(places, portion, by_width); });
+  launch(
+      "sisph::rim_shares", Range(0, 1),
+      KOKKOS_LAMBDA(int) { shares(0) = DischargeShares(places, portion, by_width); });
 }
 
 void RimLaws::find(const RimFeet& feet, double t, double dt) const {
@@ -96,12 +95,24 @@ void RimLaws::find(const RimFeet& feet, double t, double dt) const {
     const int opening = static_cast<int>(o);
     if (const auto* discharge = std::get_if<ImposedDischarge>(&in_time.law))
       share(opening, discharge->by_width || by_width_, feet.depth);
-    std::visit([&](const auto& kind) {
+    std::visit(
+        [&](const auto& kind) {
       using Law = std::decay_t<decltype(kind)>;
-      const FindStates<Law> found{kind, in_time.first, in_time.second, {place_, feet.depth, opening}, feet,
-                                  mean_out_, mean_celerity_, shares_, gravity_, spacing_, t, dt};
+      const FindStates<Law> found{kind,
+                                  in_time.first,
+                                  in_time.second,
+                                  {place_, feet.depth, opening},
+                                  feet,
+                                  mean_out_,
+                                  mean_celerity_,
+                                  shares_,
+                                  gravity_,
+                                  spacing_,
+                                  t,
+                                  dt};
       launch("sisph::rim_states", Range(0, place_.extent_int(0)), found);
-    }, in_time.law);
+        },
+        in_time.law);
   }
 }
 

@@ -16,29 +16,34 @@ template <int D>
 void ActiveSlices<D>::number_slices() {
   const PairView pairs = g_.pairs;
   const Field<int> slice = slice_;
-  launch("sisph::number_slices", Range(0, pairs.slices()), KOKKOS_LAMBDA(int s) {
+  launch(
+      "sisph::number_slices", Range(0, pairs.slices()), KOKKOS_LAMBDA(int s) {
         const Lanes me = pairs(s);
         for (int l = 0; l < me.count; ++l) slice(me.particle(l)) = s;
       });
 }
 
-// near: 1 with water, then the support in which it is reached. Whoever reaches a slice writes the same: which thread is first does
-// not matter.
+// near: 1 with water, then the support in which it is reached. Whoever reaches a slice writes the same: which
+// thread is first does not matter.
 template <int D>
 void ActiveSlices<D>::find(const Field<double>& depth, int supports) {
   const PairView pairs = g_.pairs;
   const SliceList free = g_.slices, active = list_;
   const Field<int> near = near_, slice = slice_;
   const Field<double> h = depth;
-  Kokkos::parallel_reduce("sisph::dry", Range(0, pairs.slices()), KOKKOS_LAMBDA(int s, int& dry) {
+  Kokkos::parallel_reduce(
+      "sisph::dry", Range(0, pairs.slices()),
+      KOKKOS_LAMBDA(int s, int& dry) {
         const Lanes me = pairs(s);
         int here = 0;
         for (int l = 0; l < me.count; ++l) here += h(me.particle(l)) > 0 ? 0 : 1;
         near(s) = here < me.count ? 1 : 0;
         dry += here;
-      }, dry_);
+      },
+      dry_);
   for (int ring = 1; dry_ > 0 && ring <= supports; ++ring)
-    launch("sisph::spread", Range(0, pairs.slices()), KOKKOS_LAMBDA(int s) {
+    launch(
+        "sisph::spread", Range(0, pairs.slices()), KOKKOS_LAMBDA(int s) {
           if (near(s) != ring) return;
           pairs.for_each(s, [&](int, PairIndex j) {
             for (int l = 0; l < lanes; ++l) {
@@ -47,12 +52,15 @@ void ActiveSlices<D>::find(const Field<double>& depth, int supports) {
             }
           });
         });
-  Kokkos::parallel_scan("sisph::list_active", Range(0, free.count), KOKKOS_LAMBDA(int k, int& count, bool last) {
+  Kokkos::parallel_scan(
+      "sisph::list_active", Range(0, free.count),
+      KOKKOS_LAMBDA(int k, int& count, bool last) {
         const int s = free(k);
         if (near(s) == 0) return;
         if (last) active.list(count) = s;
         ++count;
-      }, list_.count);
+      },
+      list_.count);
 }
 
 template class ActiveSlices<1>;

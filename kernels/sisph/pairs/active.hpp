@@ -1,4 +1,5 @@
-// Which slices a step visits: those with water or within some supports of water. Water moves one support in each Picard pass.
+// Which slices a step visits: those with water or within some supports of water. Water moves one support in
+// each Picard pass.
 #pragma once
 #include "kernels/sisph/pairs/geometry.hpp"
 
@@ -21,7 +22,7 @@ class ActiveSlices {
  private:
   Geometry<D> g_;
   SliceList list_;
-  Field<int> near_;  // per slice: 1 = holds water, n + 1 = within n supports of it, 0 = further away
+  Field<int> near_;   // per slice: 1 = holds water, n + 1 = within n supports of it, 0 = further away
   Field<int> slice_;  // per particle: its slice
   int dry_ = 0;
 };

@@ -68,7 +68,8 @@ struct Shift {
   KOKKOS_FUNCTION void operator()(int s, double& change, int& negative) const {
     const Vec<Lane, D> li = g.pairs(s).load(lambda);
     g.pairs.for_each(s, [&](int e, PairIndex j) {
-      const Lane area = PairView::load(g.area, e), share = closing<D>(li, gather(lambda, j), PairView::load(g.n, e)), closed = area * share;
+      const Lane area = PairView::load(g.area, e),
+                 share = closing<D>(li, gather(lambda, j), PairView::load(g.n, e)), closed = area * share;
       PairView::store(g.area, e, closed);
       const Lane size = select(Lane(0.0) < area, larger(share - 1.0, 1.0 - share), Lane(0.0));
       change = larger(change, largest(size));
@@ -80,7 +81,8 @@ struct Shift {
 template <int D>
 double openness(const Geometry<D>& g, const VecField<double, D>& right, const VecField<double, D>& inverse) {
   double worst = 0;
-  Kokkos::parallel_reduce("sisph::openness", Range(0, g.slices.count), Openness<D>{g, right, inverse}, Kokkos::Max<double>(worst));
+  Kokkos::parallel_reduce("sisph::openness", Range(0, g.slices.count), Openness<D>{g, right, inverse},
+                          Kokkos::Max<double>(worst));
   return worst;
 }
 
@@ -89,15 +91,19 @@ double openness(const Geometry<D>& g, const VecField<double, D>& right, const Ve
 template <int D>
 ClosureReport close_areas(const Geometry<D>& g) {
   const int stride = g.images.slots(), size = D * stride;
-  const auto vector = [&](const std::string& label) { return Field<double>(label, static_cast<size_t>(size) + lanes); };
-  const Field<double> right = vector("sisph.closure_right"), inverse = vector("sisph.closure_inverse"), lambda = vector("sisph.lambda");
+  const auto vector = [&](const std::string& label) {
+    return Field<double>(label, static_cast<size_t>(size) + lanes);
+  };
+  const Field<double> right = vector("sisph.closure_right"), inverse = vector("sisph.closure_inverse"),
+                      lambda = vector("sisph.lambda");
   const Vec<double, D> dimension;
   ClosureReport report;
   report.unclosed = openness<D>(g, parts(right, stride, dimension), parts(inverse, stride, dimension));
   if (report.unclosed < closed_already) return report;
   const auto springs = [&](const Field<double>& x, const Field<double>& y) {
     g.images.fill(parts(x, stride, dimension));
-    return sum_of_slices<1>("sisph::springs", g.slices.count, Springs<D>{g, parts(x, stride, dimension), parts(y, stride, dimension)})[0];
+    return sum_of_slices<1>("sisph::springs", g.slices.count,
+                            Springs<D>{g, parts(x, stride, dimension), parts(y, stride, dimension)})[0];
   };
   linear::ConjugateGradients cg;
   cg.resize(size);
@@ -107,8 +113,9 @@ ClosureReport close_areas(const Geometry<D>& g) {
   report.iterations = cg.solve(springs, linear::Jacobi{inverse}, right, lambda, options).iterations;
   g.images.fill(parts(lambda, stride, dimension));
   int negative = 0;
-  Kokkos::parallel_reduce("sisph::close", Range(0, g.pairs.slices()), Shift<D>{g, parts(lambda, stride, dimension)},
-                          Kokkos::Max<double>(report.change), Kokkos::Sum<int>(negative));
+  Kokkos::parallel_reduce("sisph::close", Range(0, g.pairs.slices()),
+                          Shift<D>{g, parts(lambda, stride, dimension)}, Kokkos::Max<double>(report.change),
+                          Kokkos::Sum<int>(negative));
   report.negative = negative / 2;  // each stands in both rows
   report.unclosed = openness<D>(g, parts(right, stride, dimension), parts(inverse, stride, dimension));
   report.lambda = lambda;

@@ -58,7 +58,8 @@ struct KernelMoments {
       sum += outer(PairView::load(g.n, e), w);
     });
     const Lane free = free_lanes(g, me), mean = (1.0 / D) * trace(sum);
-    me.store(g.moment, select(Lane(0.5) < free, mean, Lane(regular)) + least_moment);  // a particle without neighbours has no pairs, not NaN
+    me.store(g.moment, select(Lane(0.5) < free, mean, Lane(regular)) +
+                           least_moment);  // a particle without neighbours has no pairs, not NaN
     me.store(g.inverse, inverted(linear ? sum : isotropic(mean, sum)));
   }
 };
@@ -66,11 +67,13 @@ struct KernelMoments {
 template <int D>
 void measure_pairs(const Geometry<D>& g, const Shapes<D>& shapes, bool sized) {
   const Range all(0, g.pairs.slices());
-  std::visit([&](const auto& k) {
+  std::visit(
+      [&](const auto& k) {
     using Kernel = std::decay_t<decltype(k)>;
     if (sized) launch("sisph::measure", all, Measure<D, Kernel, true>{g, shapes.h, k});
     else launch("sisph::measure", all, Measure<D, Kernel, false>{g, shapes.h, k});
-  }, shapes.kernel);
+      },
+      shapes.kernel);
 }
 
 template <int D>
@@ -100,27 +103,34 @@ template <int D>
 void scale_areas(const Geometry<D>& g, double cell) {
   const int n = g.pairs.particles;
   const Field<double> omega = g.omega, free = g.free;
-  const auto sum = sum_of_particles<2>("sisph::covered", n, KOKKOS_LAMBDA(int i) {
-    return Addends<2>{{free(i) * omega(i), free(i)}};
-  });
+  const auto sum = sum_of_particles<2>(
+      "sisph::covered", n, KOKKOS_LAMBDA(int i) {
+        return Addends<2>{{free(i) * omega(i), free(i)}};
+      });
   const double factor = sum[0] > 0 ? cell * sum[1] / sum[0] : 1;
-  launch("sisph::scale_areas", Range(0, n),
-         KOKKOS_LAMBDA(int i) { omega(i) = free(i) > 0.5 ? factor * omega(i) : cell; });
+  launch(
+      "sisph::scale_areas", Range(0, n),
+      KOKKOS_LAMBDA(int i) { omega(i) = free(i) > 0.5 ? factor * omega(i) : cell; });
 }
 
 template <int D>
 void list_free_slices(Geometry<D>& g, const Field<int>& held) {
   const PairView pairs = g.pairs;
   const Field<double> free = g.free;
-  launch("sisph::mark_free", Range(0, pairs.particles), KOKKOS_LAMBDA(int i) { free(i) = held(i) > 0 ? 0.0 : 1.0; });
+  launch(
+      "sisph::mark_free", Range(0, pairs.particles),
+      KOKKOS_LAMBDA(int i) { free(i) = held(i) > 0 ? 0.0 : 1.0; });
   g.slices.list = Field<int>("sisph.slices", static_cast<size_t>(pairs.slices()));
   const Field<int> list = g.slices.list;
-  Kokkos::parallel_scan("sisph::list_free", Range(0, pairs.slices()), KOKKOS_LAMBDA(int s, int& count, bool last) {
+  Kokkos::parallel_scan(
+      "sisph::list_free", Range(0, pairs.slices()),
+      KOKKOS_LAMBDA(int s, int& count, bool last) {
         const Lanes me = pairs(s);
         if (largest(me.load(free)) < 0.5) return;
         if (last) list(count) = s;
         ++count;
-      }, g.slices.count);
+      },
+      g.slices.count);
 }
 
 template <int D>
@@ -148,13 +158,24 @@ Geometry<D> measure_geometry(int particles, const AnyKernel<D>& kernel, const Ge
   const PairRequest<D> paired{request.rows, request.x, request.h, support_of<D>(kernel)};
   ImageLists<D> lists;
   list_wall_pairs<D>(particles, paired, request.walls, pairs, lists);
-  const auto field = [&](const std::string& label) { return Field<double>(label, static_cast<size_t>(particles) + lanes); };
-  Geometry<D> g{pairs.view(), pairs.template vector_coefficient<D>("sisph.n"), pairs.coefficient("sisph.distance"),
-                pairs.coefficient("sisph.weight"), pairs.coefficient("sisph.area"), lists.images,
-                place_images<D>(particles, paired, request.walls, lists), field("sisph.omega"),
-                field("sisph.moment"), field("sisph.free"), sym_field<D>("sisph.inverse", static_cast<size_t>(particles) + lanes), {}};
+  const auto field = [&](const std::string& label) {
+    return Field<double>(label, static_cast<size_t>(particles) + lanes);
+  };
+  Geometry<D> g{pairs.view(),
+                pairs.template vector_coefficient<D>("sisph.n"),
+                pairs.coefficient("sisph.distance"),
+                pairs.coefficient("sisph.weight"),
+                pairs.coefficient("sisph.area"),
+                lists.images,
+                place_images<D>(particles, paired, request.walls, lists),
+                field("sisph.omega"),
+                field("sisph.moment"),
+                field("sisph.free"),
+                sym_field<D>("sisph.inverse", static_cast<size_t>(particles) + lanes),
+                {}};
   list_free_slices(g, request.held);
-  const double h = request.h.extent(0) > 0 ? on_host(Kokkos::subview(request.h, std::make_pair(0, 1)))(0) : request.spacing;
+  const double h = request.h.extent(0) > 0 ? on_host(Kokkos::subview(request.h, std::make_pair(0, 1)))(0)
+                                           : request.spacing;
   const Shapes<D> shapes{kernel, request.h, lattice_moment<D>(kernel, h, request.spacing), request.linear};
   measure_pairs(g, shapes, true);
   scale_areas(g, request.cell);

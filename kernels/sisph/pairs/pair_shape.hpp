@@ -1,6 +1,7 @@
-// One pair from where its particles stand: n from i to j, d, G = -W'(r), W, and its area A, symmetric in i and j to the bit; closed by the
-// multipliers of closure.hpp. The one source of what geometry.cpp stores and coefficients.hpp finds anew. Padding, a particle with
-// itself, has G = W = 0 and is 1 m apart, so that it can be divided by.
+// One pair from where its particles stand: n from i to j, d, G = -W'(r), W, and its area A, symmetric in i
+// and j to the bit; closed by the multipliers of closure.hpp. The one source of what geometry.cpp stores and
+// coefficients.hpp finds anew. Padding, a particle with itself, has G = W = 0 and is 1 m apart, so that it
+// can be divided by.
 #pragma once
 #include "cellgrid/simd/vec.hpp"
 #include "kernels/smoothing/smoothing.hpp"
@@ -15,7 +16,8 @@ struct PairShape {
 
 // apart: x_j - x_i
 template <int D, class Kernel>
-KOKKOS_FORCEINLINE_FUNCTION PairShape<D> pair_shape(const Kernel& kernel, const Vec<Lane, D>& apart, Lane inv_h) {
+KOKKOS_FORCEINLINE_FUNCTION PairShape<D> pair_shape(const Kernel& kernel, const Vec<Lane, D>& apart,
+                                                    Lane inv_h) {
   const Lane r2 = dot(apart, apart), inv_r = rsqrt(r2 + tiny_square), r = r2 * inv_r, norm = power<D>(inv_h);
   const KernelValue<Lane> k = kernel.at(r * inv_h);
   const Lane here = select(Lane(0.0) < r2, Lane(1.0), Lane(0.0));  // not padding
@@ -29,7 +31,8 @@ KOKKOS_FORCEINLINE_FUNCTION Lane pair_area(Lane omega_i, Lane omega_j, Lane slop
 
 // What the closure multiplies an area by.
 template <int D>
-KOKKOS_FORCEINLINE_FUNCTION Lane closing(const Vec<Lane, D>& lambda_i, const Vec<Lane, D>& lambda_j, const Vec<Lane, D>& n) {
+KOKKOS_FORCEINLINE_FUNCTION Lane closing(const Vec<Lane, D>& lambda_i, const Vec<Lane, D>& lambda_j,
+                                         const Vec<Lane, D>& n) {
   return 1.0 - dot(lambda_j - lambda_i, n);
 }
 

@@ -1,4 +1,5 @@
-// Parts of wholes: the components of a vector unknown, which lie one after another, and the sum over the particles of a slice.
+// Parts of wholes: the components of a vector unknown, which lie one after another, and the sum over the
+// particles of a slice.
 #pragma once
 #include <utility>
 
@@ -11,7 +12,8 @@ inline VecField<double, 1> parts(const Field<double>& v, int stride, Vec<double,
   return {Kokkos::subview(v, std::make_pair(0, stride))};
 }
 inline VecField<double, 2> parts(const Field<double>& v, int stride, Vec<double, 2>) {
-  return {Kokkos::subview(v, std::make_pair(0, stride)), Kokkos::subview(v, std::make_pair(stride, 2 * stride))};
+  return {Kokkos::subview(v, std::make_pair(0, stride)),
+          Kokkos::subview(v, std::make_pair(stride, 2 * stride))};
 }
 
 }  // namespace freshet::sisph

@@ -19,7 +19,8 @@ struct Slope {
     const int s = active(k);
     const Lanes me = g.pairs(s);
     const double t = depths.theta;
-    const Lane next = wet(me.load(depths.next)), hi = (1 - t) * wet(me.load(depths.now)) + t * next, bi = me.load(bed);
+    const Lane next = wet(me.load(depths.next)), hi = (1 - t) * wet(me.load(depths.now)) + t * next,
+               bi = me.load(bed);
     Vec<Lane, D> sum;
     g.pairs.for_each(s, [&](int e, PairIndex j) {
       const Lane hj = (1 - t) * wet(gather(depths.now.data(), j)) + t * wet(gather(depths.next.data(), j));
@@ -37,12 +38,14 @@ struct Slope {
 }  // namespace
 
 template <int D>
-void conservative_slope(const Geometry<D>& g, const SliceList& active, const DepthLevels& depths, const Field<double>& bed,
-                        const VecField<double, D>& slope) {
+void conservative_slope(const Geometry<D>& g, const SliceList& active, const DepthLevels& depths,
+                        const Field<double>& bed, const VecField<double, D>& slope) {
   launch("sisph::conservative_slope", Range(0, active.count), Slope<D>{g, active, depths, bed, slope});
 }
 
-template void conservative_slope(const Geometry<1>&, const SliceList&, const DepthLevels&, const Field<double>&, const VecField<double, 1>&);
-template void conservative_slope(const Geometry<2>&, const SliceList&, const DepthLevels&, const Field<double>&, const VecField<double, 2>&);
+template void conservative_slope(const Geometry<1>&, const SliceList&, const DepthLevels&,
+                                 const Field<double>&, const VecField<double, 1>&);
+template void conservative_slope(const Geometry<2>&, const SliceList&, const DepthLevels&,
+                                 const Field<double>&, const VecField<double, 2>&);
 
 }  // namespace freshet::sisph

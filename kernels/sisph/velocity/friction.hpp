@@ -10,6 +10,7 @@ namespace freshet::sisph {
 
 // drag: dt gamma per particle; g_n2: g n^2.
 template <int D>
-void find_drag(int particles, const Layer<D>& water, const Field<double>& g_n2, double dt, const Field<double>& drag);
+void find_drag(int particles, const Layer<D>& water, const Field<double>& g_n2, double dt,
+               const Field<double>& drag);
 
 }  // namespace freshet::sisph

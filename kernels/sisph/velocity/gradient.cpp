@@ -25,7 +25,8 @@ struct Smooth {
   }
 };
 
-// S^-1, or the inverse of S + 0.1 tr(S) 1 where S is singular, of what lies between where it nearly is; zero for zero.
+// S^-1, or the inverse of S + 0.1 tr(S) 1 where S is singular, of what lies between where it nearly is; zero
+// for zero.
 KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 1> guarded_inverse(const Sym<Lane, 1>& m) {
   return {select(Lane(1e-12) < m.xx, 1.0 / (m.xx + least_moment), Lane(0.0))};
 }
@@ -45,7 +46,8 @@ struct Drying {
   VecField<double, D> gradient;
 
   KOKKOS_FUNCTION void operator()(int k) const {
-    constexpr double film = 1e-6, clear = 0.05;  // m; of the deepest pair, above every bed around: away from the front
+    constexpr double film = 1e-6,
+                     clear = 0.05;  // m; of the deepest pair, above every bed around: away from the front
     const int s = active(k);
     const Lanes me = g.pairs(s);
     const Lane bi = me.load(bed), eta = bi + larger(me.load(depth), Lane(0.0));
@@ -63,16 +65,20 @@ struct Drying {
       lowest = smaller(lowest, smaller(eta, level) - higher);
       deepest = larger(deepest, above);
     });
-    // Weights of order one, so that "nearly zero" means something; a film says nothing of the surface where water comes to.
+    // Weights of order one, so that "nearly zero" means something; a film says nothing of the surface where
+    // water comes to.
     const Lane per = 1.0 / deepest, told = deepest / (deepest + film);
-    const Vec<Lane, D> smooth = me.load(g.inverse) * sum, front = told * (guarded_inverse(scaled(moment, per)) * (per * weighted));
+    const Vec<Lane, D> smooth = me.load(g.inverse) * sum,
+                       front = told * (guarded_inverse(scaled(moment, per)) * (per * weighted));
     const Lane away = larger(smaller(per * lowest / clear, Lane(1.0)), Lane(0.0));
     me.store(gradient, free_lanes(g, me) * (front + away * (smooth - front)));
   }
 
  private:
   static KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 1> scaled(const Sym<Lane, 1>& m, Lane f) { return {f * m.xx}; }
-  static KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 2> scaled(const Sym<Lane, 2>& m, Lane f) { return {f * m.xx, f * m.xy, f * m.yy}; }
+  static KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 2> scaled(const Sym<Lane, 2>& m, Lane f) {
+    return {f * m.xx, f * m.xy, f * m.yy};
+  }
 };
 
 template <int D>
@@ -97,7 +103,8 @@ struct Velocities {
       of_u += (w * difference.x) * n;
       if constexpr (D == 2) of_v += (w * difference.y) * n;
     });
-    const Lane kept = free_lanes(g, me) * larger(smaller((least_share - thin) / (full - thin), Lane(1.0)), Lane(0.0));
+    const Lane kept =
+        free_lanes(g, me) * larger(smaller((least_share - thin) / (full - thin), Lane(1.0)), Lane(0.0));
     const Sym<Lane, D> inverse = me.load(g.inverse);
     me.store(out.u, kept * (inverse * of_u));
     if constexpr (D == 2) me.store(out.v, kept * (inverse * of_v));
@@ -107,27 +114,28 @@ struct Velocities {
 }  // namespace
 
 template <int D>
-void surface_gradient(const Geometry<D>& g, const SliceList& active, const Field<double>& depth, const Field<double>& bed,
-                      const VecField<double, D>& gradient, bool drying) {
+void surface_gradient(const Geometry<D>& g, const SliceList& active, const Field<double>& depth,
+                      const Field<double>& bed, const VecField<double, D>& gradient, bool drying) {
   const Range range(0, active.count);
-  if (drying)
-    launch("sisph::gradient_drying", range, Drying<D>{g, active, depth, bed, gradient});
-  else
-    launch("sisph::gradient", range, Smooth<D>{g, active, depth, bed, gradient});
+  if (drying) launch("sisph::gradient_drying", range, Drying<D>{g, active, depth, bed, gradient});
+  else launch("sisph::gradient", range, Smooth<D>{g, active, depth, bed, gradient});
 }
 
 template <int D>
-void velocity_gradient(const Geometry<D>& g, const SliceList& active, const Layer<D>& water, const VelocityGradient<D>& gradient) {
+void velocity_gradient(const Geometry<D>& g, const SliceList& active, const Layer<D>& water,
+                       const VelocityGradient<D>& gradient) {
   g.images.fill(water.v);
   launch("sisph::velocity_gradient", Range(0, active.count), Velocities<D>{g, active, water, gradient});
   g.images.fill_gradient(gradient.u, gradient.v);
 }
 
-template void surface_gradient(const Geometry<1>&, const SliceList&, const Field<double>&, const Field<double>&,
-                               const VecField<double, 1>&, bool);
-template void surface_gradient(const Geometry<2>&, const SliceList&, const Field<double>&, const Field<double>&,
-                               const VecField<double, 2>&, bool);
-template void velocity_gradient(const Geometry<1>&, const SliceList&, const Layer<1>&, const VelocityGradient<1>&);
-template void velocity_gradient(const Geometry<2>&, const SliceList&, const Layer<2>&, const VelocityGradient<2>&);
+template void surface_gradient(const Geometry<1>&, const SliceList&, const Field<double>&,
+                               const Field<double>&, const VecField<double, 1>&, bool);
+template void surface_gradient(const Geometry<2>&, const SliceList&, const Field<double>&,
+                               const Field<double>&, const VecField<double, 2>&, bool);
+template void velocity_gradient(const Geometry<1>&, const SliceList&, const Layer<1>&,
+                                const VelocityGradient<1>&);
+template void velocity_gradient(const Geometry<2>&, const SliceList&, const Layer<2>&,
+                                const VelocityGradient<2>&);
 
 }  // namespace freshet::sisph

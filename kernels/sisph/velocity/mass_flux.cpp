@@ -25,10 +25,11 @@ struct Fluxes {
   }
 };
 
-// H^{n+1} = H^n - (dt / omega) sum_j F_ij, the share of the outflow that there was water for, that of the velocity's slope that
-// keeps the momentum convex (the water that stays, measured in what leaves), and the least depth. What flows in does not flow on within
-// the step where outflow is limited, so that one sweep is enough: shares that count it change with those of the donors (a dozen sweeps,
-// for the same errors). The margin is more than the sums' round-off.
+// H^{n+1} = H^n - (dt / omega) sum_j F_ij, the share of the outflow that there was water for, that of the
+// velocity's slope that keeps the momentum convex (the water that stays, measured in what leaves), and the
+// least depth. What flows in does not flow on within the step where outflow is limited, so that one sweep is
+// enough: shares that count it change with those of the donors (a dozen sweeps, for the same errors). The
+// margin is more than the sums' round-off.
 template <int D>
 struct Depths {
   Geometry<D> g;
@@ -49,7 +50,8 @@ struct Depths {
     const Lane volume = me.load(g.omega) * me.load(before), free = free_lanes(g, me), has = volume + dt * in;
     const Lane after = select(Lane(0.5) < free, (has - dt * out) / me.load(g.omega), me.load(depth));
     me.store(depth, after);
-    me.store(share, select(Lane(0.5) < free, smaller((1.0 - margin) * volume / (dt * out + 1e-300), Lane(1.0)), Lane(1.0)));
+    me.store(share, select(Lane(0.5) < free,
+                           smaller((1.0 - margin) * volume / (dt * out + 1e-300), Lane(1.0)), Lane(1.0)));
     me.store(slope_share, smaller(larger(volume - dt * out, Lane(0.0)) / (dt * out + 1e-300), Lane(1.0)));
     least = smaller(least, smallest(after));
   }
@@ -71,20 +73,27 @@ struct ScaleOutflow {
   }
 };
 
-// The part of the way to the face that the donor's gradient adds: half of van Leer's mean of the difference to the receiver
-// and the difference that lies upwind of it.
+// The part of the way to the face that the donor's gradient adds: half of van Leer's mean of the difference
+// to the receiver and the difference that lies upwind of it.
 KOKKOS_FORCEINLINE_FUNCTION Lane to_face(Lane difference, Lane twice_along) {
   const Lane product = difference * (twice_along - difference);
-  return select(Lane(0.0) < product, product / (twice_along + select(Lane(0.0) < twice_along, Lane(1e-300), Lane(-1e-300))), Lane(0.0));
+  return select(Lane(0.0) < product,
+                product / (twice_along + select(Lane(0.0) < twice_along, Lane(1e-300), Lane(-1e-300))),
+                Lane(0.0));
 }
 
-KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 1> face_velocity(const Vec<Lane, 1>& donor, const Vec<Lane, 1>& difference, const Vec<Lane, 1>& way,
-                                                       const Vec<Lane, 1>& du, const Vec<Lane, 1>&) {
+KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 1> face_velocity(const Vec<Lane, 1>& donor,
+                                                       const Vec<Lane, 1>& difference,
+                                                       const Vec<Lane, 1>& way, const Vec<Lane, 1>& du,
+                                                       const Vec<Lane, 1>&) {
   return {donor.x + to_face(difference.x, 2.0 * dot(du, way))};
 }
-KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 2> face_velocity(const Vec<Lane, 2>& donor, const Vec<Lane, 2>& difference, const Vec<Lane, 2>& way,
-                                                       const Vec<Lane, 2>& du, const Vec<Lane, 2>& dv) {
-  return {donor.x + to_face(difference.x, 2.0 * dot(du, way)), donor.y + to_face(difference.y, 2.0 * dot(dv, way))};
+KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 2> face_velocity(const Vec<Lane, 2>& donor,
+                                                       const Vec<Lane, 2>& difference,
+                                                       const Vec<Lane, 2>& way, const Vec<Lane, 2>& du,
+                                                       const Vec<Lane, 2>& dv) {
+  return {donor.x + to_face(difference.x, 2.0 * dot(du, way)),
+          donor.y + to_face(difference.y, 2.0 * dot(dv, way))};
 }
 template <class Mask>
 KOKKOS_FORCEINLINE_FUNCTION Vec<Lane, 1> either(Mask m, const Vec<Lane, 1>& a, const Vec<Lane, 1>& b) {
@@ -146,10 +155,13 @@ MassFlux<D>::MassFlux(const Geometry<D>& g)
 }
 
 template <int D>
-double MassFlux<D>::least_depth(const SliceList& active, const Layer<D>& water, const FreeSurface<D>& surface, double dt) {
+double MassFlux<D>::least_depth(const SliceList& active, const Layer<D>& water, const FreeSurface<D>& surface,
+                                double dt) {
   double least = 0;
-  Kokkos::parallel_reduce("sisph::depths", Range(0, active.count),
-                          Depths<D>{g_, active, water.depth, surface.flux(), surface.depth(), share_, slope_share_, dt}, Kokkos::Min<double>(least));
+  Kokkos::parallel_reduce(
+      "sisph::depths", Range(0, active.count),
+      Depths<D>{g_, active, water.depth, surface.flux(), surface.depth(), share_, slope_share_, dt},
+      Kokkos::Min<double>(least));
   return active.count > 0 ? least : 0.0;
 }
 
@@ -159,11 +171,14 @@ void MassFlux<D>::scale_outflow(const SliceList& active, const FreeSurface<D>& s
 }
 
 template <int D>
-FluxReport MassFlux<D>::close_depths(const SliceList& active, const Layer<D>& water, const FreeSurface<D>& surface, double dt) {
-  std::visit([&](const auto& a) {
+FluxReport MassFlux<D>::close_depths(const SliceList& active, const Layer<D>& water,
+                                     const FreeSurface<D>& surface, double dt) {
+  std::visit(
+      [&](const auto& a) {
     const Fluxes<D, std::decay_t<decltype(a)>> pass{g_, active, a, surface.level(), surface.flux(), 1 / dt};
     launch("sisph::fluxes", Range(0, active.count), pass);
-  }, surface.pairs());
+      },
+      surface.pairs());
   FluxReport report;
   report.limited = least_depth(active, water, surface, dt) < 0;
   if (report.limited) {
@@ -173,18 +188,20 @@ FluxReport MassFlux<D>::close_depths(const SliceList& active, const Layer<D>& wa
   const Field<double> depth = surface.depth(), omega = g_.omega;
   const Geometry<D> g = g_;
   const SliceList list = active;
-  report.clipped = sum_of_slices<1>("sisph::clip", active.count, KOKKOS_LAMBDA(int k) {
-    const Lanes me = g.pairs(list(k));
-    const Lane left = me.load(depth);
-    me.store(depth, larger(left, Lane(0.0)));
-    return LaneAddends<1>{{counted(me, me.load(omega) * larger(-left, Lane(0.0)))}};
-  })[0];
+  report.clipped = sum_of_slices<1>(
+      "sisph::clip", active.count, KOKKOS_LAMBDA(int k) {
+        const Lanes me = g.pairs(list(k));
+        const Lane left = me.load(depth);
+        me.store(depth, larger(left, Lane(0.0)));
+        return LaneAddends<1>{{counted(me, me.load(omega) * larger(-left, Lane(0.0)))}};
+      })[0];
   return report;
 }
 
 template <int D>
 void MassFlux<D>::advect(const SliceList& active, const Layer<D>& water, const FreeSurface<D>& surface,
-                         const VelocityGradient<D>& gradient, double dt, const VecField<double, D>& advected) {
+                         const VelocityGradient<D>& gradient, double dt,
+                         const VecField<double, D>& advected) {
   launch("sisph::advect", Range(0, active.count),
          Advect<D>{g_, active, water, gradient, surface.flux(), surface.depth(), slope_share_, dt, advected});
 }

@@ -24,7 +24,9 @@ KOKKOS_FORCEINLINE_FUNCTION Lane fit_weight(Lane r) {
   return p2 * p2 * (1.0 + 4.0 * r);
 }
 
-KOKKOS_FORCEINLINE_FUNCTION constexpr int packed(int a, int b) { return a < b ? b * (b + 1) / 2 + a : a * (a + 1) / 2 + b; }
+KOKKOS_FORCEINLINE_FUNCTION constexpr int packed(int a, int b) {
+  return a < b ? b * (b + 1) / 2 + a : a * (a + 1) / 2 + b;
+}
 
 // The inverse of a symmetric positive matrix by Gauss and Jordan; directions without information stay zero.
 template <int N>
@@ -44,8 +46,8 @@ KOKKOS_INLINE_FUNCTION void invert(double (&m)[N][N]) {
   }
 }
 
-// Per particle: the inverse of sum_j w phi phi^T, the means of phi (times the share of the lift), and a quarter of the
-// squared distance to the nearest neighbour.
+// Per particle: the inverse of sum_j w phi phi^T, the means of phi (times the share of the lift), and a
+// quarter of the squared distance to the nearest neighbour.
 template <int D>
 struct FitMoments {
   Geometry<D> g;
@@ -62,7 +64,8 @@ struct FitMoments {
     for (Lane& m : sum) m = Lane(0.0);
     for (Lane& m : first) m = Lane(0.0);
     g.pairs.for_each(s, [&](int e, PairIndex) {
-      const Lane d = PairView::load(g.distance, e), here = select(Lane(0.0) < PairView::load(g.weight, e), Lane(1.0), Lane(0.0));
+      const Lane d = PairView::load(g.distance, e),
+                 here = select(Lane(0.0) < PairView::load(g.weight, e), Lane(1.0), Lane(0.0));
       const Lane w = here * fit_weight(per_support * d);
       Lane term[n];
       monomials((per_spacing * d) * PairView::load(g.n, e), term);
@@ -79,19 +82,23 @@ struct FitMoments {
         for (int b = 0; b < n; ++b) m[a][b] = lane_of(sum[packed(a, b)], l);
       invert(m);
       for (int a = 0; a < n; ++a)
-        for (int b = 0; b <= a; ++b) inverse(static_cast<size_t>(packed(a, b)) * stride + me.particle(l)) = m[a][b];
+        for (int b = 0; b <= a; ++b)
+          inverse(static_cast<size_t>(packed(a, b)) * stride + me.particle(l)) = m[a][b];
       const double per = 1 / (lane_of(weights, l) + 1e-300);
       double aside2 = 0;  // of the neighbours' middle, in spacings
       for (int a = 0; a < D; ++a) aside2 += per * per * lane_of(first[a], l) * lane_of(first[a], l);
       const double lift = per * smaller(lift_per_aside * root(aside2), 1.0);
-      for (int a = 0; a < n; ++a) mean(static_cast<size_t>(a) * stride + me.particle(l)) = lift * lane_of(first[a], l);
+      for (int a = 0; a < n; ++a)
+        mean(static_cast<size_t>(a) * stride + me.particle(l)) = lift * lane_of(first[a], l);
       mean(static_cast<size_t>(n) * stride + me.particle(l)) = lift;
     }
     me.store(own2, 0.25 * nearest);
   }
 };
 
-KOKKOS_FORCEINLINE_FUNCTION void components(const Vec<Lane, 1>& v, const Vec<Lane, 1>& u, Lane (&all)[2]) { all[0] = v.x, all[1] = u.x; }
+KOKKOS_FORCEINLINE_FUNCTION void components(const Vec<Lane, 1>& v, const Vec<Lane, 1>& u, Lane (&all)[2]) {
+  all[0] = v.x, all[1] = u.x;
+}
 KOKKOS_FORCEINLINE_FUNCTION void components(const Vec<Lane, 2>& v, const Vec<Lane, 2>& u, Lane (&all)[4]) {
   all[0] = v.x, all[1] = v.y, all[2] = u.x, all[3] = u.y;
 }
@@ -144,15 +151,17 @@ struct Fit {
 
  private:
   KOKKOS_FORCEINLINE_FUNCTION Lane load_at(const Field<double>& f, int row, const Lanes& me) const {
-    return lanes_of<Lane>([&](int lane) { return lane < me.count ? f(static_cast<size_t>(row) * stride + me.particle(lane)) : 0.0; });
+    return lanes_of<Lane>([&](int lane) {
+      return lane < me.count ? f(static_cast<size_t>(row) * stride + me.particle(lane)) : 0.0;
+    });
   }
-  KOKKOS_FORCEINLINE_FUNCTION void store_at(const Field<double>& f, int row, const Lanes& me, Lane value) const {
+  KOKKOS_FORCEINLINE_FUNCTION void store_at(const Field<double>& f, int row, const Lanes& me,
+                                            Lane value) const {
     for_each_lane(value, [&](int lane, double one) {
       if (lane < me.count) f(static_cast<size_t>(row) * stride + me.particle(lane)) = one;
     });
   }
 };
-
 
 template <int D>
 struct Trace {
@@ -165,11 +174,15 @@ struct Trace {
 
   // The particle nearest to a place, starting from one nearby.
   KOKKOS_FUNCTION int nearest(const Vec<double, D>& place, int start) const {
-    const auto square = [&](int j) { const Vec<double, D> d = place - at(g.x, j); return dot(d, d); };
+    const auto square = [&](int j) {
+      const Vec<double, D> d = place - at(g.x, j);
+      return dot(d, d);
+    };
     int best = start;
     double least = square(start);
     if (least < own2(start)) return start;
-    for (double far = 1.1 * spacing; far < 20 * spacing; far *= 2) {  // no place among the particles is further from one
+    for (double far = 1.1 * spacing; far < 20 * spacing;
+         far *= 2) {  // no place among the particles is further from one
       rows.for_each_run(place.x, place.x, y_of(place), y_of(place), far, [&](int begin, int end) {
         for (int j = begin; j < end; ++j)
           if (square(j) < least) best = j, least = square(j);
@@ -179,8 +192,10 @@ struct Trace {
     return best;
   }
 
-  // The polynomial of the particle, lifted by a part of its neighbours' height over it: first = 0 for v, D for u.
-  KOKKOS_FUNCTION Vec<double, D> value(const VecField<double, D>& f, int first, int j, const Vec<double, D>& place, double lifted) const {
+  // The polynomial of the particle, lifted by a part of its neighbours' height over it: first = 0 for v, D
+  // for u.
+  KOKKOS_FUNCTION Vec<double, D> value(const VecField<double, D>& f, int first, int j,
+                                       const Vec<double, D>& place, double lifted) const {
     constexpr int n = terms_of<D>;
     double term[n + 1];
     monomials((1.0 / spacing) * (place - at(g.x, j)), term);
@@ -188,7 +203,8 @@ struct Trace {
     Vec<double, D> sum = at(f, j);
     for (int a = 0; a <= n; ++a) {
       sum.x += fitted(static_cast<size_t>(first * (n + 1) + a) * stride + j) * term[a];
-      if constexpr (D == 2) sum.y += fitted(static_cast<size_t>((first + 1) * (n + 1) + a) * stride + j) * term[a];
+      if constexpr (D == 2)
+        sum.y += fitted(static_cast<size_t>((first + 1) * (n + 1) + a) * stride + j) * term[a];
     }
     return sum;
   }
@@ -215,7 +231,8 @@ struct Trace {
 template <int D>
 SemiLagrangian<D>::SemiLagrangian(const Geometry<D>& g, const Rows& rows, double spacing, double support)
     : g_(g), rows_(rows), spacing_(spacing), support_(support), stride_(g.pairs.particles + lanes),
-      inverse_("sisph.fit_inverse", static_cast<size_t>(terms * (terms + 1) / 2) * static_cast<size_t>(stride_)),
+      inverse_("sisph.fit_inverse",
+               static_cast<size_t>(terms * (terms + 1) / 2) * static_cast<size_t>(stride_)),
       mean_("sisph.fit_mean", static_cast<size_t>(terms + 1) * static_cast<size_t>(stride_)),
       own2_("sisph.own2", static_cast<size_t>(stride_)),
       fitted_("sisph.fitted", static_cast<size_t>(2 * D * (terms + 1)) * static_cast<size_t>(stride_)) {
@@ -234,7 +251,8 @@ void SemiLagrangian<D>::fit(const VecField<double, D>& v, const VecField<double,
 }
 
 template <int D>
-void SemiLagrangian<D>::trace(const VecField<double, D>& v, const VecField<double, D>& u, const VecField<double, D>& last, double dt,
+void SemiLagrangian<D>::trace(const VecField<double, D>& v, const VecField<double, D>& u,
+                              const VecField<double, D>& last, double dt,
                               const VecField<double, D>& carried) const {
   launch("sisph::trace", Range(0, g_.slices.count),
          Trace<D>{g_, rows_, spacing_, dt, stride_, own2_, fitted_, v, u, last, carried});

@@ -33,7 +33,8 @@ struct Pulls {
     Lane sum(0.0);
     Vec<Lane, D> pulled;
     g.pairs.for_each(s, [&](int e, PairIndex j) {
-      const Lane hj = gather(depth.data(), j), both = 0.5 * (hi + hj) * wetness(smaller(hi, hj), larger(hi, hj));
+      const Lane hj = gather(depth.data(), j),
+                 both = 0.5 * (hi + hj) * wetness(smaller(hi, hj), larger(hi, hj));
       const Lane c = viscosity_dt * PairView::load(g.area, e) * both / PairView::load(g.distance, e);
       PairView::store(pull, e, c);
       sum += c;
@@ -44,7 +45,8 @@ struct Pulls {
     const Lane diagonal = m + sum;
     me.store(mass, m);
     me.store(right, free * pulled);
-    me.store(inverse, same(select(Lane(0.0) < diagonal, free / (diagonal + 1e-300), Lane(0.0)), Vec<Lane, D>{}));
+    me.store(inverse,
+             same(select(Lane(0.0) < diagonal, free / (diagonal + 1e-300), Lane(0.0)), Vec<Lane, D>{}));
   }
 };
 
@@ -77,24 +79,28 @@ void fill_images(const Images<D>& images, const VecField<double, D>& v, bool sli
 
 template <int D>
 Viscosity<D>::Viscosity(const Geometry<D>& g, const ViscosityOptions& options)
-    : g_(g), options_(options), stride_(g.images.slots() + lanes), pull_("sisph.viscous_pull", g.pairs.j.extent(0)),
+    : g_(g), options_(options), stride_(g.images.slots() + lanes),
+      pull_("sisph.viscous_pull", g.pairs.j.extent(0)),
       mass_("sisph.viscous_mass", static_cast<size_t>(g.pairs.particles) + lanes) {
-  for (Field<double>* f : {&right_, &inverse_, &change_}) *f = Field<double>("sisph.viscous", static_cast<size_t>(D * stride_) + lanes);
+  for (Field<double>* f : {&right_, &inverse_, &change_})
+    *f = Field<double>("sisph.viscous", static_cast<size_t>(D * stride_) + lanes);
   cg_.resize(D * stride_);
 }
 
 template <int D>
-int Viscosity<D>::find(const Layer<D>& water, const Field<double>& drag, const VecField<double, D>& predicted, double dt) {
+int Viscosity<D>::find(const Layer<D>& water, const Field<double>& drag, const VecField<double, D>& predicted,
+                       double dt) {
   const TimedRegion region("sisph::viscosity");
   const Vec<double, D> like;
   fill_images(g_.images, predicted, options_.slip);
   launch("sisph::viscous_pulls", Range(0, g_.slices.count),
-         Pulls<D>{g_, water.depth, drag, predicted, options_.viscosity * dt, pull_, mass_, parts(right_, stride_, like),
-                  parts(inverse_, stride_, like)});
+         Pulls<D>{g_, water.depth, drag, predicted, options_.viscosity * dt, pull_, mass_,
+                  parts(right_, stride_, like), parts(inverse_, stride_, like)});
   const auto product = [&](const Field<double>& x, const Field<double>& y) {
     fill_images(g_.images, parts(x, stride_, like), options_.slip);
-    return sum_of_slices<1>("sisph::viscous_product", g_.slices.count,
-                            Product<D>{g_, pull_, mass_, parts(x, stride_, like), parts(y, stride_, like)})[0];
+    return sum_of_slices<1>(
+        "sisph::viscous_product", g_.slices.count,
+        Product<D>{g_, pull_, mass_, parts(x, stride_, like), parts(y, stride_, like)})[0];
   };
   linear::CgOptions cg;
   cg.tolerance = options_.tolerance;
@@ -107,9 +113,9 @@ void Viscosity<D>::add(const Field<double>& drag, const VecField<double, D>& to)
   const VecField<double, D> change = parts(change_, stride_, Vec<double, D>{}), v = to;
   const Field<double> gamma = drag;
   const bool dragged = gamma.extent(0) > 0;
-  launch("sisph::add_viscous", Range(0, g_.pairs.particles), KOKKOS_LAMBDA(int i) {
-        put(v, i, at(v, i) + (dragged ? 1 + gamma(i) : 1.0) * at(change, i));
-      });
+  launch(
+      "sisph::add_viscous", Range(0, g_.pairs.particles),
+      KOKKOS_LAMBDA(int i) { put(v, i, at(v, i) + (dragged ? 1 + gamma(i) : 1.0) * at(change, i)); });
 }
 
 template class Viscosity<1>;

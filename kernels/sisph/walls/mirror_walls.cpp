@@ -9,8 +9,8 @@
 namespace freshet::sisph {
 namespace {
 
-constexpr double bend = 0.5;             // rad: turns towards the water that are less do not end a chain
-constexpr double right_angle = 0.01;     // rad, tolerance
+constexpr double bend = 0.5;          // rad: turns towards the water that are less do not end a chain
+constexpr double right_angle = 0.01;  // rad, tolerance
 
 double size_of(const std::vector<Polyline>& lines) {
   double size = 0;
@@ -56,10 +56,8 @@ bool ends_chain(const Point& a, const Point& b, const Point& c, Cut& cut) {
   const Piece s = piece_between(a, b), t = piece_between(b, c);
   const double angle = turn(s.tangent, t.tangent);
   if (angle < bend) return false;
-  if (std::abs(angle - 0.5 * pi) < right_angle)
-    cut.corners.push_back({s.b, {s.normal, t.normal}});
-  else
-    ++cut.slanting;
+  if (std::abs(angle - 0.5 * pi) < right_angle) cut.corners.push_back({s.b, {s.normal, t.normal}});
+  else ++cut.slanting;
   return true;
 }
 
@@ -120,10 +118,8 @@ MirrorWalls<2>::MirrorWalls(const std::vector<Polyline>& lines, double beyond, c
   if (lines.empty()) return;
   Cut cut;
   for (const Polyline& line : joined(lines)) {
-    if (line.front() == line.back())
-      add_closed(line, cut);
-    else
-      add_open(lengthened(line, beyond, goes_on), cut);
+    if (line.front() == line.back()) add_closed(line, cut);
+    else add_open(lengthened(line, beyond, goes_on), cut);
   }
   slanting_ = cut.slanting;
   bins_ = PieceBins(cut.pieces, 0.25 * beyond);

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "cellgrid/particles/pairs.hpp"
-#include "kernels/sisph/walls/images.hpp"
 #include "kernels/boundaries/walls/piece_bins.hpp"
+#include "kernels/sisph/walls/images.hpp"
 
 namespace freshet::sisph {
 
@@ -19,25 +19,31 @@ struct WallCorner {
   Vec<double, 2> normals[2]{};  // of both, towards the water
 };
 
-// Straight pieces in chains: along a chain only the nearest point reflects, at corners with the water inside chains end.
+// Straight pieces in chains: along a chain only the nearest point reflects, at corners with the water inside
+// chains end.
 template <int D>
 class MirrorWalls {
  public:
   MirrorWalls() = default;  // no walls
-  // Ends that meet no other wall go on straight for `beyond` [m], more than a support, where goes_on(end): sides of the domain, where openings begin.
+  // Ends that meet no other wall go on straight for `beyond` [m], more than a support, where goes_on(end):
+  // sides of the domain, where openings begin.
   using Ends = std::function<bool(const Point&)>;
-  MirrorWalls(const std::vector<Polyline>& lines, double beyond, const Ends& goes_on = [](const auto&) { return true; });
+  MirrorWalls(
+      const std::vector<Polyline>& lines, double beyond,
+      const Ends& goes_on = [](const auto&) { return true; });
 
   KOKKOS_FORCEINLINE_FUNCTION bool given() const { return bins_.size() > 0 || corner_bins_.size() > 0; }
-  int slanting_corners() const { return slanting_; }  // corners with the water inside that are not right ones: no image through them
+  int slanting_corners() const {
+    return slanting_;
+  }  // corners with the water inside that are not right ones: no image through them
 
   // Whether a wall may matter to a particle: one is nearer than the distance.
   KOKKOS_INLINE_FUNCTION bool near(const Vec<double, D>& x, double distance) const;
 
   // Calls see(image of xj, reflection) for the images of the pair that lie nearer to xi than the support [m].
   template <class See>
-  KOKKOS_FORCEINLINE_FUNCTION void for_each_image(const Vec<double, D>& xi, const Vec<double, D>& xj, double support,
-                                                  const See& see) const;
+  KOKKOS_FORCEINLINE_FUNCTION void for_each_image(const Vec<double, D>& xi, const Vec<double, D>& xj,
+                                                  double support, const See& see) const;
 
   // Whether a wall stands between the two.
   KOKKOS_INLINE_FUNCTION bool part(const Vec<double, D>& xi, const Vec<double, D>& xj) const;
@@ -47,7 +53,8 @@ class MirrorWalls {
     Vec<double, 2> q, m;  // a point of it [m], and its normal towards the water
     bool valid = false;
   };
-  // Of the first chain from `chain` on that has pieces in the box; chain becomes the next one there, -1: none.
+  // Of the first chain from `chain` on that has pieces in the box; chain becomes the next one there, -1:
+  // none.
   KOKKOS_FORCEINLINE_FUNCTION Plane nearest(const Box& box, const Vec<double, 2>& x, int& chain) const;
 
   int slanting_ = 0;
@@ -57,21 +64,26 @@ class MirrorWalls {
   Kokkos::View<WallCorner*, Memory> corners_;
 };
 
-// Images, and what finding them needs; listing again keeps the room that there is, more is made with some to spare.
+// Images, and what finding them needs; listing again keeps the room that there is, more is made with some to
+// spare.
 template <int D>
 struct ImageLists {
-  Images<D> images;    // of the last listing; their fields may be longer
-  Field<int> first;    // slot of the first image that particle i sees
+  Images<D> images;       // of the last listing; their fields may be longer
+  Field<int> first;       // slot of the first image that particle i sees
   VecField<double, D> x;  // m
 };
 
-// Lists the pairs of all particles, those with images included, and finds the images' sources and reflections.
+// Lists the pairs of all particles, those with images included, and finds the images' sources and
+// reflections.
 template <int D>
-void list_wall_pairs(int particles, const PairRequest<D>& request, const MirrorWalls<D>& walls, Pairs& pairs, ImageLists<D>& lists);
+void list_wall_pairs(int particles, const PairRequest<D>& request, const MirrorWalls<D>& walls, Pairs& pairs,
+                     ImageLists<D>& lists);
 
-// The places of particles and, behind them, of the images of the last listing: lists.x, or the request's own where there are none.
+// The places of particles and, behind them, of the images of the last listing: lists.x, or the request's own
+// where there are none.
 template <int D>
-VecField<double, D> place_images(int particles, const PairRequest<D>& request, const MirrorWalls<D>& walls, ImageLists<D>& lists);
+VecField<double, D> place_images(int particles, const PairRequest<D>& request, const MirrorWalls<D>& walls,
+                                 ImageLists<D>& lists);
 
 namespace detail {
 KOKKOS_FORCEINLINE_FUNCTION Sym<double, 1> mirror(double, double, Vec<double, 1>) { return {-1.0}; }
@@ -82,8 +94,8 @@ KOKKOS_FORCEINLINE_FUNCTION Sym<double, 1> invert(Vec<double, 1>) { return {-1.0
 KOKKOS_FORCEINLINE_FUNCTION Sym<double, 2> invert(Vec<double, 2>) { return {-1.0, 0.0, -1.0}; }
 }  // namespace detail
 
-// The wall's nearest point; at a bend with the water outside (270 degrees) the plane stands across the line to it. A place beside
-// an end of an open chain sees none.
+// The wall's nearest point; at a bend with the water outside (270 degrees) the plane stands across the line
+// to it. A place beside an end of an open chain sees none.
 template <int D>
 KOKKOS_FORCEINLINE_FUNCTION auto MirrorWalls<D>::nearest(const Box& box, const Vec<double, 2>& x,
                                                          int& chain) const -> Plane {
@@ -130,12 +142,13 @@ KOKKOS_INLINE_FUNCTION bool MirrorWalls<D>::near(const Vec<double, D>& x, double
     });
 }
 
-// An image is nearer than the support, so that its plane is within half of that of the middle. Inlined, so that the
-// compiler sees where xj is xi: a particle's own image is simpler.
+// An image is nearer than the support, so that its plane is within half of that of the middle. Inlined, so
+// that the compiler sees where xj is xi: a particle's own image is simpler.
 template <int D>
 template <class See>
-KOKKOS_FORCEINLINE_FUNCTION void MirrorWalls<D>::for_each_image(const Vec<double, D>& xi, const Vec<double, D>& xj,
-                                                                double support, const See& see) const {
+KOKKOS_FORCEINLINE_FUNCTION void MirrorWalls<D>::for_each_image(const Vec<double, D>& xi,
+                                                                const Vec<double, D>& xj, double support,
+                                                                const See& see) const {
   const Vec<double, D> middle = 0.5 * (xi + xj), like{};
   const Vec<double, 2> place{middle.x, y_of(middle)};
   const double limit = support * support;
@@ -162,10 +175,9 @@ template <int D>
 KOKKOS_INLINE_FUNCTION bool MirrorWalls<D>::part(const Vec<double, D>& xi, const Vec<double, D>& xj) const {
   const Box way = box_between(xi, xj);
   if constexpr (D == 1)
-    return corner_bins_.any(
-        way, [&](int k) { return (xi.x - corners_(k).x.x) * (xj.x - corners_(k).x.x) < 0; });
-  else
-    return bins_.any(way, [&](int k) { return crosses(pieces_(k), xi, xj); });
+    return corner_bins_.any(way,
+                            [&](int k) { return (xi.x - corners_(k).x.x) * (xj.x - corners_(k).x.x) < 0; });
+  else return bins_.any(way, [&](int k) { return crosses(pieces_(k), xi, xj); });
 }
 
 }  // namespace freshet::sisph

@@ -32,11 +32,13 @@ struct Gradient<V, 2> {
   KOKKOS_FORCEINLINE_FUNCTION V divergence() const { return ux + vy; }
 };
 template <class F, class... V>
-KOKKOS_FORCEINLINE_FUNCTION auto each(const F& f, const Gradient<V, 1>&... a) -> Gradient<decltype(f(a.xx...)), 1> {
+KOKKOS_FORCEINLINE_FUNCTION auto each(const F& f, const Gradient<V, 1>&... a)
+    -> Gradient<decltype(f(a.xx...)), 1> {
   return {f(a.xx...)};
 }
 template <class F, class... V>
-KOKKOS_FORCEINLINE_FUNCTION auto each(const F& f, const Gradient<V, 2>&... a) -> Gradient<decltype(f(a.ux...)), 2> {
+KOKKOS_FORCEINLINE_FUNCTION auto each(const F& f, const Gradient<V, 2>&... a)
+    -> Gradient<decltype(f(a.ux...)), 2> {
   return {f(a.ux...), f(a.uy...), f(a.vx...), f(a.vy...)};
 }
 
@@ -53,12 +55,14 @@ struct PairSums {
 
   // Number by number: a sum that is copied as a whole stays in memory while it is summed (g++ 12).
   KOKKOS_FORCEINLINE_FUNCTION PairSums& operator+=(const PairSums& b) {
-    return density += b.density, moment += b.moment, closing += b.closing, spread += b.spread, slope += b.slope, *this;
+    return density += b.density, moment += b.moment, closing += b.closing, spread += b.spread,
+           slope += b.slope, *this;
   }
 };
 
 template <class F, int D, class... V>
-KOKKOS_FORCEINLINE_FUNCTION auto each(const F& f, const PairSums<V, D>&... a) -> PairSums<decltype(f(a.density...)), D> {
+KOKKOS_FORCEINLINE_FUNCTION auto each(const F& f, const PairSums<V, D>&... a)
+    -> PairSums<decltype(f(a.density...)), D> {
   return {f(a.density...), f(a.moment...), f(a.closing...), each(f, a.spread...), each(f, a.slope...)};
 }
 
@@ -69,8 +73,8 @@ struct Sums : PairSums<Lane, D> {
 
 // One pair, all from one 1/r. apart: x_ji. (Of a structured binding g++ 12 stores a copy in every pair.)
 template <Want want, class K, class V, int D>
-KOKKOS_FORCEINLINE_FUNCTION void add_pair(const K& kernel, const Distance<V, D>& apart, const Vec<V, D>& v_ji, V m, V inv_h,
-                                          PairSums<V, D>& sum) {
+KOKKOS_FORCEINLINE_FUNCTION void add_pair(const K& kernel, const Distance<V, D>& apart, const Vec<V, D>& v_ji,
+                                          V m, V inv_h, PairSums<V, D>& sum) {
   const Vec<V, D>& x_ji = apart.x;
   const PairLength<V> length_ji = length(apart);
   const V inv_r = length_ji.per_r, r = length_ji.r;
@@ -126,45 +130,47 @@ struct SumDensity {
     if constexpr (want == Want::gradient) s.moment = trace(s.spread), s.closing = s.slope.divergence();
     const Lane per_volume = power<D>(inv_h);
     s.density *= per_volume;
-    if (walls.on && walls.mirror)
-      add_images(c, i, inv_h, s.wall);
-    else if (walls.on)
-      add_walls(c, i, walls.virtual_mass(i.m, i.h0 * inv_h, rho), inv_h, s.wall);
+    if (walls.on && walls.mirror) add_images(c, i, inv_h, s.wall);
+    else if (walls.on) add_walls(c, i, walls.virtual_mass(i.m, i.h0 * inv_h, rho), inv_h, s.wall);
     return s;
   }
 
   template <Want want>
-  KOKKOS_FORCEINLINE_FUNCTION PairSums<Lane, D> all(int c, const Vec<Lane, D> x, const Vec<Lane, D> v, const Lane inv_h) const {
-    if constexpr (single)
-      return each(Folded{}, walk_single<want>(c, x, each(Twice{}, v), twice(inv_h)));
+  KOKKOS_FORCEINLINE_FUNCTION PairSums<Lane, D> all(int c, const Vec<Lane, D> x, const Vec<Lane, D> v,
+                                                    const Lane inv_h) const {
+    if constexpr (single) return each(Folded{}, walk_single<want>(c, x, each(Twice{}, v), twice(inv_h)));
     else
-      return by_register<Lane>(Seen<Lane, D>{x, v, inv_h}, [&](const auto& some, int part) FRESHET_INLINE_LAMBDA {
+      return by_register<Lane>(Seen<Lane, D>{x, v, inv_h},
+                               [&](const auto& some, int part) FRESHET_INLINE_LAMBDA {
         return walk_some<want>(near.of(c, part), some, [](int) { return true; });
       });
   }
 
   // Signs of x and v are those of x_ij and v_ij: only their products count.
   template <Want want>
-  KOKKOS_FORCEINLINE_FUNCTION PairSums<Twin, D> walk_single(int c, const Vec<Lane, D> x, const Vec<Twin, D> v, const Twin inv_h) const {
+  KOKKOS_FORCEINLINE_FUNCTION PairSums<Twin, D> walk_single(int c, const Vec<Lane, D> x, const Vec<Twin, D> v,
+                                                            const Twin inv_h) const {
     PairSums<Twin, D> s;
     for_each_twin(near, c, [&](int a, int b, Twin keep) {
       const TwinRecord<4> j(p.single.motion(a), p.single.motion(b));
-      add_pair<want>(kernel, distance(apart(x, p.x, a, b)), v - two_vectors<0, D>(j), keep * j.template get<2>(), inv_h, s);
+      add_pair<want>(kernel, distance(apart(x, p.x, a, b)), v - two_vectors<0, D>(j),
+                     keep * j.template get<2>(), inv_h, s);
     });
     return s;
   }
 
   template <Want want, class Counts>
-  KOKKOS_FORCEINLINE_FUNCTION PairSums<Lane, D> walk(int c, const Vec<Lane, D>& x, const Vec<Lane, D>& v, Lane inv_h,
-                                                     const Counts& counts) const {
+  KOKKOS_FORCEINLINE_FUNCTION PairSums<Lane, D> walk(int c, const Vec<Lane, D>& x, const Vec<Lane, D>& v,
+                                                     Lane inv_h, const Counts& counts) const {
     return by_register<Lane>(Seen<Lane, D>{x, v, inv_h}, [&](const auto& some, int) FRESHET_INLINE_LAMBDA {
       return walk_some<want>(near.of(c), some, counts);
     });
   }
-  // The sums over the neighbours that count, as seen from x moving at v. A local result, a copy of what sees: sums whose
-  // address is known elsewhere would be written to memory at every pair.
+  // The sums over the neighbours that count, as seen from x moving at v. A local result, a copy of what sees:
+  // sums whose address is known elsewhere would be written to memory at every pair.
   template <Want want, class V, class Counts>
-  KOKKOS_FORCEINLINE_FUNCTION PairSums<V, D> walk_some(const NearList& neighbours, const Seen<V, D> i, const Counts& counts) const {
+  KOKKOS_FORCEINLINE_FUNCTION PairSums<V, D> walk_some(const NearList& neighbours, const Seen<V, D> i,
+                                                       const Counts& counts) const {
     PairSums<V, D> s;
     const auto apart = [&](int j) FRESHET_INLINE_LAMBDA { return distance(broadcast<V>(at(p.x, j)) - i.x); };
     for_each_distance<V>(neighbours, apart, [&](int j, const Distance<V, D>& x_ji) FRESHET_INLINE_LAMBDA {
@@ -176,8 +182,11 @@ struct SumDensity {
     return s;
   }
 
-  // Whether the sums depend on the particle's own depth beside its h: through virtual particles that follow it.
-  KOKKOS_INLINE_FUNCTION bool follow_depth(int c) const { return walls.on && !walls.mirror && walls.near.length(c) > 0; }
+  // Whether the sums depend on the particle's own depth beside its h: through virtual particles that follow
+  // it.
+  KOKKOS_INLINE_FUNCTION bool follow_depth(int c) const {
+    return walls.on && !walls.mirror && walls.near.length(c) > 0;
+  }
 
   // What the neighbours' images add: the cluster's own image sees the neighbours.
   KOKKOS_INLINE_FUNCTION void add_images(int c, const Self<D>& i, Lane inv_h, WallSums<Lane, D>& wall) const {
@@ -186,18 +195,20 @@ struct SumDensity {
       const Vec<Lane, D> x_image = image(i.x);
       const double limit = kernel.support / smallest(inv_h) + walls.foremost(piece, x_image);
       if (limit <= 0) return;
-      const PairSums<Lane, D> s = walk<Want::rate>(c, x_image, image.turn(i.v), inv_h,
-                                             [&](int j) { return walls.mirrors(piece, at(p.x, j), limit); });
+      const PairSums<Lane, D> s = walk<Want::rate>(
+          c, x_image, image.turn(i.v), inv_h, [&](int j) { return walls.mirrors(piece, at(p.x, j), limit); });
       wall.density += weight * per_volume * s.density;
       wall.moment += weight * per_volume * inv_h * s.moment;
       wall.approach += weight * per_volume * inv_h * s.closing;
     });
   }
 
-  KOKKOS_INLINE_FUNCTION void add_walls(int c, const Self<D>& i, Lane mass, Lane inv_h, WallSums<Lane, D>& s) const {
+  KOKKOS_INLINE_FUNCTION void add_walls(int c, const Self<D>& i, Lane mass, Lane inv_h,
+                                        WallSums<Lane, D>& s) const {
     walls.near.for_each(c, [&](int k) {
       const Vec<Lane, D> normal_velocity = broadcast(walls.projector, k) * i.v;
-      add_wall(kernel, walls.stretch, i.x - broadcast(at(walls.x, k)), normal_velocity, inv_h, mass * walls.share(k), s);
+      add_wall(kernel, walls.stretch, i.x - broadcast(at(walls.x, k)), normal_velocity, inv_h,
+               mass * walls.share(k), s);
     });
   }
 };

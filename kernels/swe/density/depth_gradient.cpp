@@ -33,16 +33,19 @@ struct DepthGradient {
 }  // namespace
 
 template <int D>
-void find_depth_gradient(const AnyKernel<D>& kernel, const ClusterSet& clusters, const NeighbourView& near, const Particles<D>& p) {
+void find_depth_gradient(const AnyKernel<D>& kernel, const ClusterSet& clusters, const NeighbourView& near,
+                         const Particles<D>& p) {
   std::visit(
       [&](const auto& k) {
-        launch("swe::depth_gradient", Range(0, clusters.size()),
-               DepthGradient<D, std::decay_t<decltype(k)>>{k, clusters, near, p});
+    launch("swe::depth_gradient", Range(0, clusters.size()),
+           DepthGradient<D, std::decay_t<decltype(k)>>{k, clusters, near, p});
       },
       kernel);
 }
 
-template void find_depth_gradient<1>(const AnyKernel<1>&, const ClusterSet&, const NeighbourView&, const Particles<1>&);
-template void find_depth_gradient<2>(const AnyKernel<2>&, const ClusterSet&, const NeighbourView&, const Particles<2>&);
+template void find_depth_gradient<1>(const AnyKernel<1>&, const ClusterSet&, const NeighbourView&,
+                                     const Particles<1>&);
+template void find_depth_gradient<2>(const AnyKernel<2>&, const ClusterSet&, const NeighbourView&,
+                                     const Particles<2>&);
 
 }  // namespace freshet::swe

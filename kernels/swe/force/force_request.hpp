@@ -1,4 +1,5 @@
-// What internal_force() hands to its pair loops, which are compiled once per dimension and precision, side by side.
+// What internal_force() hands to its pair loops, which are compiled once per dimension and precision, side by
+// side.
 #pragma once
 #include "kernels/swe/force/internal_force.hpp"
 

@@ -1,7 +1,7 @@
 // What a pair's pressures become under each stabilisation (thesis 2.7; docs/formulas/swe.md (S15) to (S20)).
-// To add one, write its struct and name it in the variant: name and title are what a scene says and what the program
-// shows, keys(k) the keys of its own (kernels/choice.hpp), flops what it adds to a pair (cellgrid/parallel/work.hpp). Of those
-// with the same name the first that fits the key 'muscl' is taken.
+// To add one, write its struct and name it in the variant: name and title are what a scene says and what the
+// program shows, keys(k) the keys of its own (kernels/choice.hpp), flops what it adds to a pair
+// (cellgrid/parallel/work.hpp). Of those with the same name the first that fits the key 'muscl' is taken.
 #pragma once
 #include <variant>
 
@@ -45,7 +45,8 @@ KOKKOS_FORCEINLINE_FUNCTION PairPressure<V> with_viscosity(const PairState<V>& p
 template <class V>
 KOKKOS_FORCEINLINE_FUNCTION V reconstructed_jump(const PairState<V>& p) {
   const V size = size_of(p.jump), zero(0.0);
-  const V taken = larger(zero, smaller(size, turned_by(p.slope_i, p.jump))) + larger(zero, smaller(size, turned_by(p.slope_j, p.jump)));
+  const V taken = larger(zero, smaller(size, turned_by(p.slope_i, p.jump))) +
+                  larger(zero, smaller(size, turned_by(p.slope_j, p.jump)));
   return turned_by(size - 0.5 * taken, p.jump);
 }
 
@@ -59,7 +60,8 @@ struct NoStabilisation {
   }
 };
 
-// Artificial viscosity, corrected (2.53): Pi = (-a c mu + b mu^2)/rho with mu = h v.x/(r^2 + 0.01 h^2), approaching pairs only.
+// Artificial viscosity, corrected (2.53): Pi = (-a c mu + b mu^2)/rho with mu = h v.x/(r^2 + 0.01 h^2),
+// approaching pairs only.
 struct ArtificialViscosity {
   static constexpr const char *name = "artificial-viscosity", *title = "artificial viscosity";
   static constexpr bool velocity_gradient = false, depth_gradient = false, muscl = false;
@@ -77,11 +79,12 @@ struct ArtificialViscosity {
   }
 };
 
-// Lax-Friedrichs flux, corrected (2.54): Pi = -c v_ij.x_ij / (rho r) with mean c and rho; always on. Reconstructed: on the
-// normal velocities of the linear fields midway.
+// Lax-Friedrichs flux, corrected (2.54): Pi = -c v_ij.x_ij / (rho r) with mean c and rho; always on.
+// Reconstructed: on the normal velocities of the linear fields midway.
 template <bool Reconstructed>
 struct LaxFriedrichsFlux {
-  static constexpr const char *name = "lax-friedrichs", *title = Reconstructed ? "Lax-Friedrichs with MUSCL" : "Lax-Friedrichs";
+  static constexpr const char *name = "lax-friedrichs",
+                              *title = Reconstructed ? "Lax-Friedrichs with MUSCL" : "Lax-Friedrichs";
   static constexpr bool velocity_gradient = Reconstructed, depth_gradient = false, muscl = Reconstructed;
   static constexpr double flops = Reconstructed ? 24 : 6;
   double strength = 1;
@@ -93,31 +96,34 @@ struct LaxFriedrichsFlux {
   KOKKOS_FORCEINLINE_FUNCTION PairPressure<V> operator()(const PairState<V>& p) const {
     if constexpr (Reconstructed)
       return with_viscosity<V>(p, (-0.5 * strength) * p.celerities * reconstructed_jump(p) * p.inv);
-    else
-      return with_viscosity<V>(p, (-0.5 * strength) * p.celerities * p.jump * p.inv);
+    else return with_viscosity<V>(p, (-0.5 * strength) * p.celerities * p.jump * p.inv);
   }
 };
 using LaxFriedrichs = LaxFriedrichsFlux<false>;
 using LaxFriedrichsMuscl = LaxFriedrichsFlux<true>;
 
-// Depth between two states in contact, two-shock approximation on the two-rarefaction estimate (Toro; thesis (2.56)):
-// left = j, right = i; closing = u_l - u_r along x_ij. Zero where the states part so fast that the bed falls dry.
+// Depth between two states in contact, two-shock approximation on the two-rarefaction estimate (Toro; thesis
+// (2.56)): left = j, right = i; closing = u_l - u_r along x_ij. Zero where the states part so fast that the
+// bed falls dry.
 template <class V>
 KOKKOS_FORCEINLINE_FUNCTION V two_shock_depth(V left, V right, V closing, double gravity) {
   const V c = 0.5 * root(gravity * left) + 0.5 * root(gravity * right) + 0.25 * closing;
   const V d0 = larger(c, V(0.0)) * larger(c, V(0.0)) / gravity, least = 1e-12 * (left + right);
   const V base = larger(d0, least);
-  const V g_l = root(0.5 * gravity * (base + left) / (base * left)), g_r = root(0.5 * gravity * (base + right) / (base * right));
+  const V g_l = root(0.5 * gravity * (base + left) / (base * left)),
+          g_r = root(0.5 * gravity * (base + right) / (base * right));
   const V depth = larger((g_l * left + g_r * right + closing) / (g_l + g_r), V(0.0));
   return select(least < d0, depth, V(0.0));
 }
 
-// Both ends feel p* = g d*^2 / 2 (corrected (2.55)): p / (rho^2 alpha) grows by (d*/rho)^2. Reconstructed: depths and
-// normal velocities are those of the linear fields midway, limited by minmod.
+// Both ends feel p* = g d*^2 / 2 (corrected (2.55)): p / (rho^2 alpha) grows by (d*/rho)^2. Reconstructed:
+// depths and normal velocities are those of the linear fields midway, limited by minmod.
 template <bool Reconstructed>
 struct TwoShockFlux {
-  static constexpr const char *name = "two-shock", *title = Reconstructed ? "two-shock with MUSCL" : "two-shock";
-  static constexpr bool velocity_gradient = Reconstructed, depth_gradient = Reconstructed, muscl = Reconstructed;
+  static constexpr const char *name = "two-shock",
+                              *title = Reconstructed ? "two-shock with MUSCL" : "two-shock";
+  static constexpr bool velocity_gradient = Reconstructed, depth_gradient = Reconstructed,
+                        muscl = Reconstructed;
   static constexpr double flops = Reconstructed ? 76 : 33;
   double gravity = 9.81;  // m/s2
   template <class V>
@@ -137,7 +143,7 @@ struct TwoShockFlux {
 using TwoShock = TwoShockFlux<false>;
 using TwoShockMuscl = TwoShockFlux<true>;
 
-using AnyStabilisation =
-    std::variant<NoStabilisation, ArtificialViscosity, LaxFriedrichsMuscl, LaxFriedrichs, TwoShockMuscl, TwoShock>;
+using AnyStabilisation = std::variant<NoStabilisation, ArtificialViscosity, LaxFriedrichsMuscl, LaxFriedrichs,
+                                      TwoShockMuscl, TwoShock>;
 
 }  // namespace freshet::swe

@@ -26,7 +26,8 @@ std::vector<double> widths(const std::vector<OpenBuffer<D>>& buffers) {
 
 template <int D>
 BufferedLine<D>::BufferedLine(const std::vector<OpenLine<D>>& pieces, std::function<OpenLaw(double)> law,
-                              const std::vector<double>& times, const OpenBufferOptions& options, double gravity, int first_owner)
+                              const std::vector<double>& times, const OpenBufferOptions& options,
+                              double gravity, int first_owner)
     : law_(std::move(law)), times_(times), gravity_(gravity), buffers_(lay_out(pieces, options, first_owner)),
       section_(widths(buffers_),
                {gravity, buffers_.front().least_depth(), 10 * buffers_.front().smoothing()}) {
@@ -54,7 +55,8 @@ void BufferedLine<D>::foresee() {
 }
 
 template <int D>
-void BufferedLine<D>::fill(const Rows& rows, FieldSet& particles, const Bind<D>& bind, const Ground& bed, int& next_id) {
+void BufferedLine<D>::fill(const Rows& rows, FieldSet& particles, const Bind<D>& bind, const Ground& bed,
+                           int& next_id) {
   for (auto& buffer : buffers_) buffer.survey(bed);
   observe(rows, bind(), particles.integer("kind"), bed);
   section_.take_still();
@@ -70,12 +72,14 @@ void BufferedLine<D>::start(const Particles<D>& p, const Field<int>& kind, int n
 }
 
 template <int D>
-void BufferedLine<D>::observe(const Rows& rows, const Particles<D>& p, const Field<int>& kind, const Ground& bed) {
+void BufferedLine<D>::observe(const Rows& rows, const Particles<D>& p, const Field<int>& kind,
+                              const Ground& bed) {
   for (auto& buffer : buffers_) buffer.observe(rows, p, kind, bed);
 }
 
 template <int D>
-void BufferedLine<D>::exchange(FieldSet& particles, const Bind<D>& bind, const Ground& bed, double t, double dt, int& next_id) {
+void BufferedLine<D>::exchange(FieldSet& particles, const Bind<D>& bind, const Ground& bed, double t,
+                               double dt, int& next_id) {
   section_.impose(law_(t), dt);
   for (auto& buffer : buffers_) {
     const Crossed crossed = buffer.convert(particles, bind(), bed);
@@ -105,8 +109,8 @@ namespace {
 // The doubles of a row's state, in order; visit(double&) each.
 template <class Row, class Visit>
 void each_value(Row& row, const Visit& visit) {
-  for (auto* value : {&row.bed, &row.level, &row.speed, &row.slip, &row.still, &row.depth, &row.inward, &row.along, &row.mean_speed,
-                      &row.mean_celerity, &row.through})
+  for (auto* value : {&row.bed, &row.level, &row.speed, &row.slip, &row.still, &row.depth, &row.inward,
+                      &row.along, &row.mean_speed, &row.mean_celerity, &row.through})
     visit(*value);
 }
 

@@ -1,8 +1,9 @@
-// The buffer of boundary particles outside one straight piece of an open boundary (Vacondio 2010, section 4.2). The line is cut
-// into rows one spacing wide; the boundary particles of a row carry the row's exterior state, whoever determined it. They become
-// fluid as they cross the line, fluid that crosses outwards becomes boundary particles, and the buffer is refilled and trimmed
-// at its outer edge. Where the buffer's sides are not at right angles to the line (a mitre against the next piece, an oblique
-// wall) rows are cut short, or rows beyond the ends, which nothing crosses, fill the wedge.
+// The buffer of boundary particles outside one straight piece of an open boundary (Vacondio 2010,
+// section 4.2). The line is cut into rows one spacing wide; the boundary particles of a row carry the row's
+// exterior state, whoever determined it. They become fluid as they cross the line, fluid that crosses
+// outwards becomes boundary particles, and the buffer is refilled and trimmed at its outer edge. Where the
+// buffer's sides are not at right angles to the line (a mitre against the next piece, an oblique wall) rows
+// are cut short, or rows beyond the ends, which nothing crosses, fill the wedge.
 #pragma once
 #include <functional>
 #include <optional>
@@ -51,13 +52,15 @@ class OpenBuffer {
   void survey(const std::optional<BedTerm<D>>& bed);
 
   // Shepard means of level and velocity at each row's point on the line, over the fluid within 2h.
-  void observe(const Rows& rows, const Particles<D>& p, const Field<int>& kind, const std::optional<BedTerm<D>>& bed);
+  void observe(const Rows& rows, const Particles<D>& p, const Field<int>& kind,
+               const std::optional<BedTerm<D>>& bed);
 
-  // The states of the rows on the line, from a to b, whose exterior states others keep. Call once, before the rest.
+  // The states of the rows on the line, from a to b, whose exterior states others keep. Call once, before the
+  // rest.
   void take_rows(const OpenRows& rows) { row_ = rows; }
-  int rows() const { return count_; }      // on the line
-  double width() const { return width_; }  // m, of a row
-  double length() const { return D == 1 ? 1.0 : line_.length; }                      // m
+  int rows() const { return count_; }                                   // on the line
+  double width() const { return width_; }                               // m, of a row
+  double length() const { return D == 1 ? 1.0 : line_.length; }         // m
   double smoothing() const { return options_.eta * options_.spacing; }  // m, h of the boundary particles
   double least_depth() const { return 1e-6 * options_.spacing; }
 
@@ -79,7 +82,9 @@ class OpenBuffer {
     double width;
     int before, count, total;  // rows beyond a, on the line, all
 
-    KOKKOS_INLINE_FUNCTION double inside(const Vec<double, D>& x) const { return dot(x - line.origin, line.inward); }
+    KOKKOS_INLINE_FUNCTION double inside(const Vec<double, D>& x) const {
+      return dot(x - line.origin, line.inward);
+    }
     KOKKOS_INLINE_FUNCTION double along(const Vec<double, D>& x) const {  // in rows from a
       if constexpr (D == 1) return 0.5;
       return dot(x - line.origin, line.tangent) / width;
@@ -114,7 +119,7 @@ class OpenBuffer {
   OpenRows row_;  // on the line
   Kokkos::View<RowPart*, Memory> extent_;
   Field<double> farthest_, nearest_;  // m, outermost and innermost boundary particle of each row
-  Field<int> room_, inner_room_;      // boundary particles to insert before each row; of them at the inner edge
+  Field<int> room_, inner_room_;  // boundary particles to insert before each row; of them at the inner edge
 };
 
 }  // namespace freshet::swe

@@ -73,8 +73,9 @@ OpenSection::OpenSection(const std::vector<double>& width, const Scales& scales)
 
 void OpenSection::take_still() const {
   const OpenRows rows = row_;
-  launch("open::take_still", Range(0, rows.extent_int(0)),
-         KOKKOS_LAMBDA(int r) { rows(r).still = rows(r).wet ? rows(r).level : rows(r).bed; });
+  launch(
+      "open::take_still", Range(0, rows.extent_int(0)),
+      KOKKOS_LAMBDA(int r) { rows(r).still = rows(r).wet ? rows(r).level : rows(r).bed; });
 }
 
 // Rows that no fluid reaches take the state of the nearest row of the boundary that has one; without any they
@@ -82,7 +83,8 @@ void OpenSection::take_still() const {
 void OpenSection::fill_gaps() const {
   const OpenRows rows = row_;
   const int n = rows.extent_int(0);
-  launch("open::fill_gaps", Range(0, n), KOKKOS_LAMBDA(int r) {
+  launch(
+      "open::fill_gaps", Range(0, n), KOKKOS_LAMBDA(int r) {
         OpenRow& row = rows(r);
         if (row.wet) return;
         int source = -1;
@@ -104,7 +106,8 @@ void OpenSection::account(const OpenLaw& law, double dt) const {
   const int n = row_.extent_int(0);
   const auto* discharge = std::get_if<ImposedDischarge>(&law);
   const bool shared = discharge != nullptr, by_width = shared && discharge->by_width;
-  launch("open::account", Range(0, 1), KOKKOS_LAMBDA(int) {
+  launch(
+      "open::account", Range(0, 1), KOKKOS_LAMBDA(int) {
         for (int r = 0; r < n; ++r) {
           const double through = portion.rows(r).through, along = portion.width(r) * dt;
           flux(0).net += through * along;
@@ -118,11 +121,13 @@ void OpenSection::impose(const OpenLaw& law, double dt) const {
   fill_gaps();
   account(law, dt);
   const PortionOfRow portion{row_, width_, scales_.least};
-  std::visit([&](const auto& kind) {
+  std::visit(
+      [&](const auto& kind) {
     using Law = std::decay_t<decltype(kind)>;
     const Impose<Law> impose{kind, portion, shares_, scales_, dt};
     launch("open::impose", Range(0, row_.extent_int(0)), impose);
-  }, law);
+      },
+      law);
 }
 
 std::vector<OpenRow> OpenSection::states() const {

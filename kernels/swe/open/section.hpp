@@ -50,9 +50,9 @@ class OpenSection {
  private:
   Scales scales_;
   OpenRows row_;
-  Field<double> width_;                               // m
-  Kokkos::View<OpenFlux*, Memory> flux_;              // one
-  Kokkos::View<DischargeShares*, Memory> shares_;     // one
+  Field<double> width_;                            // m
+  Kokkos::View<OpenFlux*, Memory> flux_;           // one
+  Kokkos::View<DischargeShares*, Memory> shares_;  // one
 };
 
 }  // namespace freshet::swe

@@ -5,7 +5,8 @@
 namespace freshet::swe {
 namespace {
 
-// Total order on pairs: nearer first, then the smaller of the two ids, then the larger. The same for both of a pair.
+// Total order on pairs: nearer first, then the smaller of the two ids, then the larger. The same for both of
+// a pair.
 struct Pair {
   double r2 = 1e300;
   int low = 0, high = 0;
@@ -14,7 +15,8 @@ struct Pair {
   }
 };
 
-// The smoothing length that keeps the density at the place of the new particle: m W(0, h) = m_i W(r_i, h_i) + m_j W(r_j, h_j).
+// The smoothing length that keeps the density at the place of the new particle: m W(0, h) = m_i W(r_i, h_i) +
+// m_j W(r_j, h_j).
 template <int D>
 KOKKOS_INLINE_FUNCTION double merged_length(const Particles<D>& p, int i, int j, const Vec<double, D>& x) {
   double density = 0;
@@ -31,8 +33,8 @@ KOKKOS_INLINE_FUNCTION double merged_length(const Particles<D>& p, int i, int j,
 
 // area_: of the particles that may merge. partner_: the first of each one's pairs by the order above.
 template <int D>
-void Refinement<D>::choose_partners(const Particles<D>& p, int n, const Field<int>& kind, const ClusterSet& clusters,
-                                    const NeighbourView& near) {
+void Refinement<D>::choose_partners(const Particles<D>& p, int n, const Field<int>& kind,
+                                    const ClusterSet& clusters, const NeighbourView& near) {
   constexpr double never = 1e300;
   reserve(area_, "merge.area", n);
   reserve(partner_, "merge.partner", n);
@@ -43,11 +45,13 @@ void Refinement<D>::choose_partners(const Particles<D>& p, int n, const Field<in
   const double reach = 0.5 * merge_->reach;
   const ClusterSet sets = clusters;
   const NeighbourView neighbours = near;
-  launch("merge::eligible", Range(0, n), KOKKOS_LAMBDA(int i) {
+  launch(
+      "merge::eligible", Range(0, n), KOKKOS_LAMBDA(int i) {
         const bool small = p.id(i) >= 0 && !(open && kind(i) != 0) && p.m(i) < limit(at(p.x, i)) * p.rho(i);
         area(i) = small ? p.m(i) / p.rho(i) : never;
       });
-  launch("merge::choose", Range(0, clusters.size()), KOKKOS_LAMBDA(int c) {
+  launch(
+      "merge::choose", Range(0, clusters.size()), KOKKOS_LAMBDA(int c) {
         const Lanes me = sets(c);
         for (int i = me.first; i < me.first + me.count; ++i) {
           partner(i) = -1;
@@ -55,7 +59,8 @@ void Refinement<D>::choose_partners(const Particles<D>& p, int n, const Field<in
           Pair best;
           const double most = split_limit(at(p.x, i));
           neighbours.for_each(c, [&](int j) {
-            if (j == i || area(j) == never || area(i) + area(j) >= smaller(most, split_limit(at(p.x, j)))) return;
+            if (j == i || area(j) == never || area(i) + area(j) >= smaller(most, split_limit(at(p.x, j))))
+              return;
             const Vec<double, D> d = at(p.x, i) - at(p.x, j);
             const Pair pair{dot(d, d), smaller(p.id(i), p.id(j)), larger(p.id(i), p.id(j))};
             const double far = reach * (p.h(i) + p.h(j));
@@ -68,13 +73,16 @@ void Refinement<D>::choose_partners(const Particles<D>& p, int n, const Field<in
 }
 
 template <int D>
-int Refinement<D>::merge(const Particles<D>& p, int n, const Field<int>& kind, const ClusterSet& clusters, const NeighbourView& near) {
+int Refinement<D>::merge(const Particles<D>& p, int n, const Field<int>& kind, const ClusterSet& clusters,
+                         const NeighbourView& near) {
   choose_partners(p, n, kind, clusters, near);
   const Field<int> partner = partner_;
   const ClusterSet sets = clusters;
   const double longest = relax_.longest;
   int mergers = 0;
-  Kokkos::parallel_reduce("merge::join", Range(0, clusters.size()), KOKKOS_LAMBDA(int c, int& count) {
+  Kokkos::parallel_reduce(
+      "merge::join", Range(0, clusters.size()),
+      KOKKOS_LAMBDA(int c, int& count) {
         const Lanes me = sets(c);
         for (int i = me.first; i < me.first + me.count; ++i) {
           const int j = partner(i);
@@ -89,19 +97,25 @@ int Refinement<D>::merge(const Particles<D>& p, int n, const Field<int>& kind, c
           p.rate(i) += part * (p.rate(j) - p.rate(i));
           p.m(i) = m;
           const double area0 = power<D>(p.h0(i)) + power<D>(p.h0(j)), kh = p.rho(i) * power<D>(p.h(i));
-          const double h0 = kh / (p.kh(i) + p.kh(j)) * area0;  // to the power D: kh / h0^D is the two's mean rho0
+          const double h0 =
+              kh / (p.kh(i) + p.kh(j)) * area0;  // to the power D: kh / h0^D is the two's mean rho0
           p.h0(i) = smaller(D == 1 ? h0 : root(h0), larger(longest, larger(p.h0(i), p.h0(j))));
           p.kh(i) = kh;
           p.id(j) = -1;
           ++count;
         }
-      }, mergers);
+      },
+      mergers);
   return mergers;
 }
 
-template int Refinement<1>::merge(const Particles<1>&, int, const Field<int>&, const ClusterSet&, const NeighbourView&);
-template int Refinement<2>::merge(const Particles<2>&, int, const Field<int>&, const ClusterSet&, const NeighbourView&);
-template void Refinement<1>::choose_partners(const Particles<1>&, int, const Field<int>&, const ClusterSet&, const NeighbourView&);
-template void Refinement<2>::choose_partners(const Particles<2>&, int, const Field<int>&, const ClusterSet&, const NeighbourView&);
+template int Refinement<1>::merge(const Particles<1>&, int, const Field<int>&, const ClusterSet&,
+                                  const NeighbourView&);
+template int Refinement<2>::merge(const Particles<2>&, int, const Field<int>&, const ClusterSet&,
+                                  const NeighbourView&);
+template void Refinement<1>::choose_partners(const Particles<1>&, int, const Field<int>&, const ClusterSet&,
+                                             const NeighbourView&);
+template void Refinement<2>::choose_partners(const Particles<2>&, int, const Field<int>&, const ClusterSet&,
+                                             const NeighbourView&);
 
 }  // namespace freshet::swe

@@ -19,7 +19,8 @@ struct Gauss {
       double x = std::cos(pi * (k + 0.75) / (nodes + 0.5)), slope = 1;
       for (int turns = 0; turns < 100; ++turns) {
         double before = 1, here = x;
-        for (int n = 2; n <= nodes; ++n) std::swap(before, here), here = ((2 * n - 1) * x * before - (n - 1) * here) / n;
+        for (int n = 2; n <= nodes; ++n)
+          std::swap(before, here), here = ((2 * n - 1) * x * before - (n - 1) * here) / n;
         slope = nodes * (x * here - before) / (x * x - 1);
         x -= here / slope;
       }
@@ -67,7 +68,8 @@ template <int D>
 std::vector<std::array<double, 2>> ring(double eps, double turn) {
   if (D == 1) return {{-eps, 0}, {eps, 0}};
   std::vector<std::array<double, 2>> corners;
-  for (int k = 0; k < 6; ++k) corners.push_back({eps * std::cos(turn + k * pi / 3), eps * std::sin(turn + k * pi / 3)});
+  for (int k = 0; k < 6; ++k)
+    corners.push_back({eps * std::cos(turn + k * pi / 3), eps * std::sin(turn + k * pi / 3)});
   return corners;
 }
 
@@ -96,12 +98,14 @@ SplitPattern split_pattern(int count, double alpha, double eps, double turn) {
   for (const auto& corner : corners)
     a11 += product(alpha, alpha, std::hypot(corner[0] - corners[0][0], corner[1] - corners[0][1])) / n;
   const bool middle = count == static_cast<int>(corners.size()) + 1;
-  const double best = (a00 - a01 - b0 + b1) / (a00 - 2 * a01 + a11), s = middle ? std::clamp(best, 0.0, 1.0) : 1.0;
+  const double best = (a00 - a01 - b0 + b1) / (a00 - 2 * a01 + a11),
+               s = middle ? std::clamp(best, 0.0, 1.0) : 1.0;
   SplitPattern pattern;
   if (s < 1) pattern.daughters.push_back({{0, 0}, 1 - s});
   if (s > 0)
     for (const auto& corner : corners) pattern.daughters.push_back({{corner[0], corner[1]}, s / n});
-  pattern.error = c - 2 * ((1 - s) * b0 + s * b1) + (1 - s) * (1 - s) * a00 + 2 * s * (1 - s) * a01 + s * s * a11;
+  pattern.error =
+      c - 2 * ((1 - s) * b0 + s * b1) + (1 - s) * (1 - s) * a00 + 2 * s * (1 - s) * a01 + s * s * a11;
   return pattern;
 }
 

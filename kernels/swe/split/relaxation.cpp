@@ -13,8 +13,8 @@ struct Relax {
   ImposedLanes imposed;
   double gravity, per_mass, time, longest, dt;
 
-  // The largest of m_j (1 - (r / 2 h_j)^2): from coarse to fine within 2 h of the last heavy one. It does not tell apart
-  // masses that differ by a tenth: at a neighbour's distance, 0.8 h, a mass counts 0.84.
+  // The largest of m_j (1 - (r / 2 h_j)^2): from coarse to fine within 2 h of the last heavy one. It does not
+  // tell apart masses that differ by a tenth: at a neighbour's distance, 0.8 h, a mass counts 0.84.
   KOKKOS_INLINE_FUNCTION Lane heaviest_near(int c, const Vec<Lane, D>& x, Lane m) const {
     near.for_each(c, [&](int j) {
       const Vec<Lane, D> d = x - broadcast(at(p.x, j));
@@ -42,13 +42,17 @@ struct Relax {
 }  // namespace
 
 template <int D>
-void Refinement<D>::relax(const ClusterSet& clusters, const NeighbourView& near, const Particles<D>& p, const Field<int>& kind,
-                          double dt) const {
-  launch("refine::relax", Range(0, clusters.size()),
-         Relax<D>{clusters, near, p, {kind}, relax_.gravity, power<D>(relax_.eta), relax_.time, relax_.longest, dt});
+void Refinement<D>::relax(const ClusterSet& clusters, const NeighbourView& near, const Particles<D>& p,
+                          const Field<int>& kind, double dt) const {
+  launch(
+      "refine::relax", Range(0, clusters.size()),
+      Relax<D>{
+          clusters, near, p, {kind}, relax_.gravity, power<D>(relax_.eta), relax_.time, relax_.longest, dt});
 }
 
-template void Refinement<1>::relax(const ClusterSet&, const NeighbourView&, const Particles<1>&, const Field<int>&, double) const;
-template void Refinement<2>::relax(const ClusterSet&, const NeighbourView&, const Particles<2>&, const Field<int>&, double) const;
+template void Refinement<1>::relax(const ClusterSet&, const NeighbourView&, const Particles<1>&,
+                                   const Field<int>&, double) const;
+template void Refinement<2>::relax(const ClusterSet&, const NeighbourView&, const Particles<2>&,
+                                   const Field<int>&, double) const;
 
 }  // namespace freshet::swe

@@ -13,10 +13,12 @@ KOKKOS_FORCEINLINE_FUNCTION void set_offset(Vec<double, 1>& v, const double* x) 
 KOKKOS_FORCEINLINE_FUNCTION void set_offset(Vec<double, 2>& v, const double* x) { v.x = x[0], v.y = x[1]; }
 
 // grad v . d with the symmetric part of grad v.
-KOKKOS_FORCEINLINE_FUNCTION Vec<double, 1> stretched(const SymField<double, 1>& strain, int i, const Vec<double, 1>& d) {
+KOKKOS_FORCEINLINE_FUNCTION Vec<double, 1> stretched(const SymField<double, 1>& strain, int i,
+                                                     const Vec<double, 1>& d) {
   return {strain.xx(i) * d.x};
 }
-KOKKOS_FORCEINLINE_FUNCTION Vec<double, 2> stretched(const SymField<double, 2>& strain, int i, const Vec<double, 2>& d) {
+KOKKOS_FORCEINLINE_FUNCTION Vec<double, 2> stretched(const SymField<double, 2>& strain, int i,
+                                                     const Vec<double, 2>& d) {
   return {strain.xx(i) * d.x + strain.xy(i) * d.y, strain.xy(i) * d.x + strain.yy(i) * d.y};
 }
 
@@ -48,7 +50,8 @@ void Refinement<D>::lay_pattern() {
 }
 
 template <int D>
-int Refinement<D>::split(FieldSet& particles, const Bind& bind, const Field<int>& kind, const WallView<D>& walls, int& next_id) {
+int Refinement<D>::split(FieldSet& particles, const Bind& bind, const Field<int>& kind,
+                         const WallView<D>& walls, int& next_id) {
   const int n = particles.size(), more = static_cast<int>(split_->pattern.daughters.size()) - 1;
   reserve(parent_, "split.parent", n);
   const Particles<D> p = bind();
@@ -57,17 +60,23 @@ int Refinement<D>::split(FieldSet& particles, const Bind& bind, const Field<int>
   const double least = split_->least_depth;
   const bool open = kind.extent(0) > 0;
   int parents = 0;
-  Kokkos::parallel_scan("split::choose", Range(0, n), KOKKOS_LAMBDA(int i, int& sum, bool last) {
-        if (p.id(i) < 0 || (open && kind(i) != 0) || p.rho(i) < least || p.m(i) < limit(at(p.x, i)) * p.rho(i)) return;
+  Kokkos::parallel_scan(
+      "split::choose", Range(0, n),
+      KOKKOS_LAMBDA(int i, int& sum, bool last) {
+        if (p.id(i) < 0 || (open && kind(i) != 0) || p.rho(i) < least ||
+            p.m(i) < limit(at(p.x, i)) * p.rho(i))
+          return;
         if (last) parent(sum) = i;
         ++sum;
-      }, parents);
+      },
+      parents);
   if (parents == 0 || n + parents * more > split_->most_particles) return 0;
   const int first_id = take_ids(next_id, parents * more);
   rank_parents(p.id, parents);
   reserve(copy_of_, "split.copy_of", parents * more);
   const Field<int> copy_of = copy_of_;
-  launch("split::copies", Range(0, parents * more), KOKKOS_LAMBDA(int k) { copy_of(k) = parent(k / more); });
+  launch(
+      "split::copies", Range(0, parents * more), KOKKOS_LAMBDA(int k) { copy_of(k) = parent(k / more); });
   particles.append_copies(copy_of, parents * more);
   place_daughters(bind(), parents, n, first_id, walls);
   return parents;
@@ -78,15 +87,17 @@ template <int D>
 void Refinement<D>::rank_parents(const Field<int>& id, int parents) {
   reserve(parent_ids_, "split.parent_ids", parents);
   const Field<int> parent = parent_, ids = parent_ids_;
-  launch("split::parent_ids", Range(0, parents), KOKKOS_LAMBDA(int s) { ids(s) = id(parent(s)); });
+  launch(
+      "split::parent_ids", Range(0, parents), KOKKOS_LAMBDA(int s) { ids(s) = id(parent(s)); });
   Kokkos::sort(Kokkos::subview(ids, std::pair<int, int>(0, parents)));
 }
 
-// The first daughter takes the parent's place in the fields; the others are copies of the parent so far. rho h^D = kh with
-// the parent's depth and alpha times its h: that is h0_k = alpha h0_N, rho0_k = rho0_N where h_N was free, and goes on from
-// h_N where that was at a bound. The bounds of h count from here on.
+// The first daughter takes the parent's place in the fields; the others are copies of the parent so far. rho
+// h^D = kh with the parent's depth and alpha times its h: that is h0_k = alpha h0_N, rho0_k = rho0_N where
+// h_N was free, and goes on from h_N where that was at a bound. The bounds of h count from here on.
 template <int D>
-void Refinement<D>::place_daughters(const Particles<D>& p, int parents, int first, int first_id, const WallView<D>& walls) const {
+void Refinement<D>::place_daughters(const Particles<D>& p, int parents, int first, int first_id,
+                                    const WallView<D>& walls) const {
   const int daughters = share_.extent_int(0);
   const Field<int> parent = parent_, ids = parent_ids_;
   const Field<double> share = share_;
@@ -94,7 +105,8 @@ void Refinement<D>::place_daughters(const Particles<D>& p, int parents, int firs
   const double alpha = split_->alpha;
   const bool linear = split_->linear;
   const double longest = relax_.longest;
-  launch("split::place", Range(0, parents * daughters), KOKKOS_LAMBDA(int q) {
+  launch(
+      "split::place", Range(0, parents * daughters), KOKKOS_LAMBDA(int q) {
         const int k = q / parents, s = q % parents;  // neighbours in memory belong to different parents
         const int i = k == 0 ? parent(s) : first + s * (daughters - 1) + k - 1;
         const Vec<double, D> from = at(p.x, i), to = walls.inside(from + p.h(i) * at(offset, k));
@@ -111,8 +123,9 @@ void Refinement<D>::place_daughters(const Particles<D>& p, int parents, int firs
 }
 
 template <int D>
-void Refinement<D>::adapt(FieldSet& particles, const Bind& bind, const Field<int>& kind, const ClusterSet& clusters,
-                          const NeighbourView& near, const WallView<D>& walls, int& next_id) {
+void Refinement<D>::adapt(FieldSet& particles, const Bind& bind, const Field<int>& kind,
+                          const ClusterSet& clusters, const NeighbourView& near, const WallView<D>& walls,
+                          int& next_id) {
   if (merge_) count_.mergers += merge(bind(), particles.size(), kind, clusters, near);
   if (split_) count_.splits += split(particles, bind, kind, walls, next_id);
 }

@@ -21,7 +21,8 @@ std::vector<std::string> AreaKeeper::notes() const {
   if (first_ < 0) return {};
   char text[400];
   std::snprintf(text, sizeof text,
-                "water closed over air or ran into threads: %.2g %% of its area was taken off again and %.2g %% put on, spread over all of it, first at "
+                "water closed over air or ran into threads: %.2g %% of its area was taken off again and %.2g "
+                "%% put on, spread over all of it, first at "
                 "t = %.6g s\n  help: a finer water.spacing leaves less to give back",
                 100 * shrunk_, 100 * grown_, first_);
   return {text};

@@ -10,9 +10,10 @@ namespace freshet::fpm {
 
 class AreaKeeper {
  public:
-  static constexpr double band = 0.005;  // of the area at the start; dam breaks, drops and waves stay below 0.0015
-  static constexpr double steps = 25;    // in which it goes back; a point moves by half a spacing in one
-  static constexpr int every = 10;       // steps from look to look
+  static constexpr double band =
+      0.005;  // of the area at the start; dam breaks, drops and waves stay below 0.0015
+  static constexpr double steps = 25;  // in which it goes back; a point moves by half a spacing in one
+  static constexpr int every = 10;     // steps from look to look
 
   void start(double area) { start_ = area; }
   bool is_due() const { return count_ % every == 0; }
@@ -22,14 +23,16 @@ class AreaKeeper {
   double expansion() const { return rate_; }  // 1/s, the divergence
   std::vector<std::string> notes() const;
 
-  std::vector<double> state() const { return {start_, rate_, static_cast<double>(count_), shrunk_, grown_, first_, t_}; }
+  std::vector<double> state() const {
+    return {start_, rate_, static_cast<double>(count_), shrunk_, grown_, first_, t_};
+  }
   void restore(const std::vector<double>& state);
 
  private:
-  double start_ = 0, rate_ = 0;              // m2; 1/s
-  long count_ = 0;                           // steps
-  double shrunk_ = 0, grown_ = 0;            // of the start's area, given back so far
-  double first_ = -1, t_ = 0;                // s
+  double start_ = 0, rate_ = 0;    // m2; 1/s
+  long count_ = 0;                 // steps
+  double shrunk_ = 0, grown_ = 0;  // of the start's area, given back so far
+  double first_ = -1, t_ = 0;      // s
 };
 
 }  // namespace freshet::fpm

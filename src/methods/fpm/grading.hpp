@@ -1,6 +1,7 @@
-// The spacing of a flow's points by place: fpm.grading times water.spacing, and the support that goes with it. In place of the thesis'
-// (5.21)-(5.23), which find h from the number of neighbours: the points are kept at the spacing that is asked for, so that the number
-// of neighbours in h = support x spacing stays what it is on a uniform cloud.
+// The spacing of a flow's points by place: fpm.grading times water.spacing, and the support that goes with
+// it. In place of the thesis' (5.21)-(5.23), which find h from the number of neighbours: the points are kept
+// at the spacing that is asked for, so that the number of neighbours in h = support x spacing stays what it
+// is on a uniform cloud.
 #pragma once
 #include "cellgrid/particles/fields.hpp"
 #include "kernels/ground/bed_spline.hpp"

@@ -8,22 +8,27 @@
 namespace freshet::fpm {
 namespace {
 
-constexpr double apart = 0.9;  // x spacing: no two places are closer than this
+constexpr double apart = 0.9;   // x spacing: no two places are closer than this
 constexpr double coarsest = 4;  // x water.spacing
 
-double squared_distance(const Point& a, const Point& b) { return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]); }
+double squared_distance(const Point& a, const Point& b) {
+  return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]);
+}
 
-// From a towards b, which is left out: as many places as the mean of 1 / spacing asks for, at equal parts of its integral.
+// From a towards b, which is left out: as many places as the mean of 1 / spacing asks for, at equal parts of
+// its integral.
 void walk(const Scene& scene, const Point& a, const Point& b, std::vector<Seed>& nodes) {
   constexpr int samples = 1000;
   const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
   const auto place = [&](double s) { return Point{a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])}; };
   std::vector<double> passed{0};  // spacings, from a
-  for (int k = 0; k < samples; ++k) passed.push_back(passed.back() + length / samples / spacing_at(scene, place((k + 0.5) / samples)));
+  for (int k = 0; k < samples; ++k)
+    passed.push_back(passed.back() + length / samples / spacing_at(scene, place((k + 0.5) / samples)));
   const int parts = std::max(1, static_cast<int>(std::lround(passed.back())));
   for (int i = 0; i < parts; ++i) {
     const double want = passed.back() * i / parts;
-    const auto k = static_cast<std::size_t>(std::max(1L, std::lower_bound(passed.begin(), passed.end(), want) - passed.begin()));
+    const auto k = static_cast<std::size_t>(
+        std::max(1L, std::lower_bound(passed.begin(), passed.end(), want) - passed.begin()));
     const double part = (want - passed[k - 1]) / (passed[k] - passed[k - 1]);
     nodes.push_back({place((static_cast<double>(k - 1) + part) / samples), false});
   }
@@ -47,7 +52,9 @@ class Chosen {
 
  private:
   int count(double length) const { return std::max(1, static_cast<int>(std::ceil(length / side_))); }
-  int column(const Point& p) const { return std::clamp(static_cast<int>((p[0] - low_[0]) / side_), 0, nx_ - 1); }
+  int column(const Point& p) const {
+    return std::clamp(static_cast<int>((p[0] - low_[0]) / side_), 0, nx_ - 1);
+  }
   int row(const Point& p) const { return std::clamp(static_cast<int>((p[1] - low_[1]) / side_), 0, ny_ - 1); }
 
   Point low_;
@@ -64,7 +71,8 @@ double spacing_at(const Scene& scene, const Point& x) {
 
 std::vector<Seed> graded_nodes(const Scene& scene, const std::vector<Point>& outline) {
   std::vector<Seed> nodes;
-  for (std::size_t k = 0; k < outline.size(); ++k) walk(scene, outline[k], outline[(k + 1) % outline.size()], nodes);
+  for (std::size_t k = 0; k < outline.size(); ++k)
+    walk(scene, outline[k], outline[(k + 1) % outline.size()], nodes);
   const Box box = bounds_of(outline);
   Chosen chosen(box, coarsest * apart * scene.water.spacing);
   for (const Seed& node : nodes) chosen.add(node.x);

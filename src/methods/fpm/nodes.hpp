@@ -1,4 +1,5 @@
-// Places for the points of a body whose spacing varies: along its outline, and inside wherever the places chosen before leave room.
+// Places for the points of a body whose spacing varies: along its outline, and inside wherever the places
+// chosen before leave room.
 #pragma once
 #include <vector>
 

@@ -1,4 +1,5 @@
-// The points that a flow starts with: on the outline of each body and on a lattice (in circles: on rings) inside it.
+// The points that a flow starts with: on the outline of each body and on a lattice (in circles: on rings)
+// inside it.
 #pragma once
 #include <vector>
 

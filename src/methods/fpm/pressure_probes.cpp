@@ -7,7 +7,7 @@
 namespace freshet::fpm {
 namespace {
 
-constexpr double beyond = 0.5;  // x range of the values around: what is shown may lie so far outside it
+constexpr double beyond = 0.5;      // x range of the values around: what is shown may lie so far outside it
 constexpr double wet_within = 1.0;  // x dx: a place without a point so near is dry
 
 }  // namespace
@@ -42,7 +42,8 @@ std::vector<Probe> PressureProbes::look(const Scene& scene, const std::vector<Ga
   const VecField<double, 2> place = place_;
   const Field<double> reach = reach_, value = value_;
   const auto probe = probe_;
-  launch("fpm::gauge_wet", Range(0, count), KOKKOS_LAMBDA(int k) {
+  launch(
+      "fpm::gauge_wet", Range(0, count), KOKKOS_LAMBDA(int k) {
         int points = 0;
         near.for_each(at(place, k), reach(k), [&](int, const Vec<double, 2>&, double) { ++points; });
         probe(k) = {points > 0 ? value(k) : 0.0, points > 0};

@@ -20,23 +20,25 @@ Mechanics FinitePointset::mechanics() const {
   const Flow flow = bind();
   const Field<double> area = cell_areas();
   const Vec<double, 2> force{scene_.fpm->force[0], scene_.fpm->force[1]};
-  const auto sum = sum_of_particles<4>("fpm::mechanics", flow.points, KOKKOS_LAMBDA(int i) {
-    const Vec<double, 2> v = at(flow.v, i);
-    const double a = area(i);
-    return Addends<4>{{a * v.x, a * v.y, 0.5 * a * dot(v, v), -a * dot(force, at(flow.x, i))}};
-  });
+  const auto sum = sum_of_particles<4>(
+      "fpm::mechanics", flow.points, KOKKOS_LAMBDA(int i) {
+        const Vec<double, 2> v = at(flow.v, i);
+        const double a = area(i);
+        return Addends<4>{{a * v.x, a * v.y, 0.5 * a * dot(v, v), -a * dot(force, at(flow.x, i))}};
+      });
   return {{sum[0], sum[1]}, sum[2], sum[3]};
 }
 
-// Each point's part of the triangles between points that are closer together than the surface's empty circle: the parts of all
-// points make up the water's area.
+// Each point's part of the triangles between points that are closer together than the surface's empty circle:
+// the parts of all points make up the water's area.
 Field<double> FinitePointset::cell_areas() const {
   const Cloud cloud = management_.cloud(points_, order_);
   const int n = points_.size();
   if (area_.extent_int(0) < n) area_ = Field<double>("fpm.area", static_cast<std::size_t>(n + n / 2));
   const Field<double> area = area_;
   const VoronoiRule rule = management_.rule().voronoi;
-  launch("fpm::cell_areas", Range(0, n), KOKKOS_LAMBDA(int i) {
+  launch(
+      "fpm::cell_areas", Range(0, n), KOKKOS_LAMBDA(int i) {
         const Radii radii(rule, cloud.spacing_at(i));
         area(i) = wet_area(cell_of(cloud, i, root(radii.open2)), cloud, i, radii);
       });
@@ -53,9 +55,7 @@ std::vector<Reading> FinitePointset::read(const std::vector<Gauge>& gauges) cons
   const Field<double> pressure = press ? flow_pressure() : Field<double>();
   const std::vector<Probe> probes = probes_.look(scene_, gauges, cloud.near, pressure);
   auto probe = probes.begin();
-  const auto place = [](double where) {
-    return where > no_water ? Reading{where, 0, true} : Reading{};
-  };
+  const auto place = [](double where) { return where > no_water ? Reading{where, 0, true} : Reading{}; };
   std::vector<Reading> readings;
   for (const Gauge& g : gauges) {
     using What = Gauge::What;
@@ -70,8 +70,10 @@ std::vector<Reading> FinitePointset::read(const std::vector<Gauge>& gauges) cons
 }
 
 std::vector<std::string> FinitePointset::features() const {
-  std::vector<std::string> on{"incompressible flow, " + std::to_string(points_.size()) + " points at the start"};
-  if (scene_.fpm->viscosity > 0) on.push_back(scene_.fpm->implicit_viscosity ? "implicit viscosity" : "viscosity");
+  std::vector<std::string> on{"incompressible flow, " + std::to_string(points_.size()) +
+                              " points at the start"};
+  if (scene_.fpm->viscosity > 0)
+    on.push_back(scene_.fpm->implicit_viscosity ? "implicit viscosity" : "viscosity");
   if (tank_.size() > 0) on.push_back(scene_.fpm->slip ? "walls: slip" : "walls: no slip");
   if (grading_) on.push_back("spacing by place");
   if (scene_.fpm->by_neighbours) on.push_back("supports by number of neighbours");
@@ -84,7 +86,8 @@ std::vector<std::string> FinitePointset::notes() const {
   if (limited_ == 0) return all;
   char text[300];
   std::snprintf(text, sizeof text,
-                "films, threads and shreds without inner points: %ld velocities (%.2g %% of points x steps) were held to the largest speed around",
+                "films, threads and shreds without inner points: %ld velocities (%.2g %% of points x steps) "
+                "were held to the largest speed around",
                 limited_, 100.0 * static_cast<double>(limited_) / static_cast<double>(moved_));
   all.emplace_back(text);
   return all;
@@ -93,8 +96,9 @@ std::vector<std::string> FinitePointset::notes() const {
 ScalarState FinitePointset::scalars() const {
   return {{"last_dt", {last_dt_}},
           {"next_id", {static_cast<double>(next_id_)}},
-          {"counts", {static_cast<double>(counts_.inserted), static_cast<double>(counts_.merged), static_cast<double>(counts_.removed),
-                      static_cast<double>(counts_.landed)}},
+          {"counts",
+           {static_cast<double>(counts_.inserted), static_cast<double>(counts_.merged),
+            static_cast<double>(counts_.removed), static_cast<double>(counts_.landed)}},
           {"limited", {static_cast<double>(limited_), static_cast<double>(moved_)}},
           {"area", keeper_.state()}};
 }
@@ -103,7 +107,8 @@ void FinitePointset::restore(const ScalarState& scalars) {
   last_dt_ = scalars.at("last_dt").at(0);
   next_id_ = static_cast<int>(std::lround(scalars.at("next_id").at(0)));
   const std::vector<double>& counts = scalars.at("counts");
-  counts_ = {std::lround(counts.at(0)), std::lround(counts.at(1)), std::lround(counts.at(2)), std::lround(counts.at(3))};
+  counts_ = {std::lround(counts.at(0)), std::lround(counts.at(1)), std::lround(counts.at(2)),
+             std::lround(counts.at(3))};
   keeper_.restore(scalars.at("area"));
   limited_ = std::lround(scalars.at("limited").at(0)), moved_ = std::lround(scalars.at("limited").at(1));
   order_.sort(points_);

@@ -11,19 +11,23 @@
 namespace freshet::fpm {
 namespace {
 
-constexpr double fastest_growth = 2;  // of the time step: backward differences of second order stand less than 1 + sqrt 2
+constexpr double fastest_growth =
+    2;  // of the time step: backward differences of second order stand less than 1 + sqrt 2
 
 std::string unsolved(const linear::BiCgStabReport& solve, double tolerance) {
   char text[300];
   std::snprintf(text, sizeof text,
-                "the pressure equation was not solved: residual %.2g of the right side after %d iterations; limit: fpm.tolerance = %.2g\n"
+                "the pressure equation was not solved: residual %.2g of the right side after %d iterations; "
+                "limit: fpm.tolerance = %.2g\n"
                 "  help: a smaller time.cfl, or look at the start for bodies that overlap",
                 solve.residual, solve.iterations, tolerance);
   return text;
 }
 
 Period period_of(const Scene& scene) {
-  const auto length = [&](std::size_t axis) { return scene.fpm->periodic[axis] ? scene.domain.high[axis] - scene.domain.low[axis] : 0.0; };
+  const auto length = [&](std::size_t axis) {
+    return scene.fpm->periodic[axis] ? scene.domain.high[axis] - scene.domain.low[axis] : 0.0;
+  };
   return {{scene.domain.low[0], scene.domain.low[1]}, {length(0), length(1)}};
 }
 
@@ -43,7 +47,12 @@ PointRule point_rule(const Scene& scene) {
 }
 
 FlowRule flow_rule(const Fpm& fpm) {
-  return {fpm.density, fpm.viscosity, {fpm.force[0], fpm.force[1]}, fpm.scheme, fpm.slip, fpm.tolerance,
+  return {fpm.density,
+          fpm.viscosity,
+          {fpm.force[0], fpm.force[1]},
+          fpm.scheme,
+          fpm.slip,
+          fpm.tolerance,
           fpm.implicit_viscosity && fpm.viscosity > 0};
 }
 
@@ -69,7 +78,8 @@ void FinitePointset::step(double, double dt) {
   advect(bind(), period_, dt, ratio);
   manage_points();
   const Flow flow = bind();
-  const Neighbourhood<2>& around = finder_.find(order_.rows(), flow.x, points_.real("h"), flow.points, period_);
+  const Neighbourhood<2>& around =
+      finder_.find(order_.rows(), flow.x, points_.real("h"), flow.points, period_);
   require_solved(projection_.advance(around, order_.rows(), flow, Backward(dt, ratio)));
   last_dt_ = dt;
   keeper_.pass(dt);
@@ -102,7 +112,8 @@ void FinitePointset::require_solved(const ProjectionReport& projected) {
 void FinitePointset::size_supports() {
   SupportRule rule;
   rule.support = scene_.fpm->support;
-  if (scene_.fpm->by_neighbours) fit_supports(management_.cloud(points_, order_), points_.size(), points_.real("h"), rule);
+  if (scene_.fpm->by_neighbours)
+    fit_supports(management_.cloud(points_, order_), points_.size(), points_.real("h"), rule);
 }
 
 // (5.24)-(5.26): a point moves by a part of its support, viscosity spreads over one, and from rest.
@@ -112,7 +123,8 @@ double FinitePointset::stable_dt() const {
   double dt = scene_.end_time;
   if (speed > 0) dt = std::min(dt, scene_.cfl * h / speed);
   if (force > 0) dt = std::min(dt, 0.04 * std::sqrt(h / force));
-  if (scene_.fpm->viscosity > 0 && !scene_.fpm->implicit_viscosity) dt = std::min(dt, 0.125 * h * h / scene_.fpm->viscosity);
+  if (scene_.fpm->viscosity > 0 && !scene_.fpm->implicit_viscosity)
+    dt = std::min(dt, 0.125 * h * h / scene_.fpm->viscosity);
   if (last_dt_ > 0) dt = std::min(dt, fastest_growth * last_dt_);
   return std::isfinite(speed) ? dt : speed;
 }
@@ -121,7 +133,8 @@ Field<double> FinitePointset::flow_pressure() const {
   const Flow flow = bind();
   if (!projection_.knows(flow)) return flow.p;
   const auto room = static_cast<std::size_t>(flow.points + flow.points / 2 + lanes);
-  if (flow_pressure_.extent_int(0) < flow.points + lanes) flow_pressure_ = Field<double>("fpm.flow_pressure", room);
+  if (flow_pressure_.extent_int(0) < flow.points + lanes)
+    flow_pressure_ = Field<double>("fpm.flow_pressure", room);
   const PoissonReport report = projection_.pressure_of_flow(flow, flow_pressure_);
   if (!report.solve.converged) throw Diverged(unsolved(report.solve, scene_.fpm->tolerance));
   return flow_pressure_;

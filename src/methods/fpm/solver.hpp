@@ -29,7 +29,8 @@ class FinitePointset : public Method {
   ScalarState scalars() const override;
   void restore(const ScalarState& scalars) override;
 
-  // Pa, at every point: the pressure that goes with the velocities (Projection::pressure_of_flow); before the first step the points' own.
+  // Pa, at every point: the pressure that goes with the velocities (Projection::pressure_of_flow); before the
+  // first step the points' own.
   Field<double> flow_pressure() const;
 
   const PoissonReport& pressure_report() const { return pressure_; }
@@ -56,7 +57,8 @@ class FinitePointset : public Method {
   PoissonReport pressure_;
   linear::BiCgStabReport viscosity_;
   PointCount counts_;
-  long limited_ = 0, moved_ = 0;  // points x steps, since t = 0: held within their neighbours' velocities; all
+  long limited_ = 0,
+       moved_ = 0;  // points x steps, since t = 0: held within their neighbours' velocities; all
   mutable PressureProbes probes_;
   mutable Field<double> area_, flow_pressure_;
   double last_dt_ = 0;  // s, 0 before the first step

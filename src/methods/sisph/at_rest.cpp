@@ -48,20 +48,23 @@ void EulerianSph<D>::build_momentum() {
   const Sisph& sisph = scene_.sisph;
   const int slots = geometry_.images.slots();
   active_.find(particles_.real("depth"), sisph.picard);
-  for (VecField<double, D>* v : {&slope_, &explicit_, &carried_, &before_, &end_}) *v = scratch<D>("sisph.velocity", slots);
+  for (VecField<double, D>* v : {&slope_, &explicit_, &carried_, &before_, &end_})
+    *v = scratch<D>("sisph.velocity", slots);
   push(water().v, 0, carried_);  // for good where all of a slice is held
   conservative_ = sisph.momentum.conservative;
   const bool by_fluxes = sisph.momentum.by_fluxes(active_.drying());
   // Antisymmetric pressure on a film's mass knows no bound.
   if ((conservative_ || !by_fluxes) && active_.drying())
-    throw SceneError("sisph.momentum = \"" + std::string(sisph.momentum.name) + "\" needs water everywhere, and " +
-                     std::to_string(active_.dry()) + " particles are dry\n  help: use \"mass-flux\"");
+    throw SceneError("sisph.momentum = \"" + std::string(sisph.momentum.name) +
+                     "\" needs water everywhere, and " + std::to_string(active_.dry()) +
+                     " particles are dry\n  help: use \"mass-flux\"");
   if (by_fluxes) {
     fluxes_.emplace(geometry_);
     velocity_gradient_.u = scratch<D>("sisph.grad_u", slots);
     if (D == 2) velocity_gradient_.v = scratch<D>("sisph.grad_v", slots);
   } else {
-    paths_.emplace(geometry_, order_.rows(), scene_.water.spacing, support_ * sisph.smoothing * scene_.water.spacing);
+    paths_.emplace(geometry_, order_.rows(), scene_.water.spacing,
+                   support_ * sisph.smoothing * scene_.water.spacing);
   }
 }
 
@@ -70,7 +73,8 @@ template <int D>
 void EulerianSph<D>::build_friction() {
   const Sisph& sisph = scene_.sisph;
   if (sisph.viscosity > 0)
-    viscosity_.emplace(geometry_, ViscosityOptions{sisph.viscosity, sisph.slip, sisph.cg.tolerance, sisph.cg.most});
+    viscosity_.emplace(geometry_,
+                       ViscosityOptions{sisph.viscosity, sisph.slip, sisph.cg.tolerance, sisph.cg.most});
   if (!scene_.manning) return;
   const Manning& manning = *scene_.manning;
   g_n2_ = Field<double>("sisph.g_n2", static_cast<std::size_t>(particles_.size()) + lanes);
@@ -85,17 +89,16 @@ void EulerianSph<D>::build_friction() {
 template <int D>
 void EulerianSph<D>::step(double t, double dt) {
   active_.find(water().depth, scene_.sisph.picard);
-  if (paths_)
-    carry_along_paths(t, dt);
-  else
-    carry_by_fluxes(t, dt);
+  if (paths_) carry_along_paths(t, dt);
+  else carry_by_fluxes(t, dt);
   Base::measure_speeds();
 }
 
 template <int D>
 void EulerianSph<D>::require_water(const std::string& who_needs) const {
   if (active_.drying())
-    throw Diverged("a particle fell dry, and " + who_needs + " water everywhere\n  help: sisph.momentum = \"mass-flux\"");
+    throw Diverged("a particle fell dry, and " + who_needs +
+                   " water everywhere\n  help: sisph.momentum = \"mass-flux\"");
 }
 
 // docs/formulas/sisph.md (I18), (I19): fully wet.
@@ -160,8 +163,8 @@ void EulerianSph<D>::find_slope(const Field<double>& depth, bool drying) {
   extend_slope(depth);
 }
 
-// What pushes the water that the fluxes carry: the surface's gradient at n (theta = 0) or n+1 (1), or the conservative pressure of the
-// level theta per mass of n+1.
+// What pushes the water that the fluxes carry: the surface's gradient at n (theta = 0) or n+1 (1), or the
+// conservative pressure of the level theta per mass of n+1.
 template <int D>
 void EulerianSph<D>::find_push(double theta, bool drying) {
   const Field<double> now = water().depth, next = surface_.depth();
@@ -174,20 +177,23 @@ void EulerianSph<D>::find_push(double theta, bool drying) {
 template <int D>
 void EulerianSph<D>::push(const VecField<double, D>& from, double impulse, const VecField<double, D>& to) {
   const VecField<double, D> a = from, slope = slope_, b = to;
-  launch("sisph::push", Range(0, particles_.size()),
-         KOKKOS_LAMBDA(int i) { put(b, i, at(a, i) - impulse * at(slope, i)); });
+  launch(
+      "sisph::push", Range(0, particles_.size()),
+      KOKKOS_LAMBDA(int i) { put(b, i, at(a, i) - impulse * at(slope, i)); });
 }
 
-// The velocity of the fluxes before the pressure at n+1: theta of what was carried, the rest of what there was; what fell wet within the
-// step had no velocity of its own.
+// The velocity of the fluxes before the pressure at n+1: theta of what was carried, the rest of what there
+// was; what fell wet within the step had no velocity of its own.
 template <int D>
 void EulerianSph<D>::blend(double dt) {
   const double theta = scene_.sisph.theta;
   const VecField<double, D> carried = carried_, v = water().v, before = before_;
   const Field<double> drag = drag_, depth = water().depth, last = surface_.depth();
   const bool dragged = drag.extent(0) > 0;
-  launch("sisph::blend", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) {
-        const double share = dragged ? theta / (1 + drag(i)) : theta, own = wetness(depth(i), larger(last(i), 0.0));
+  launch(
+      "sisph::blend", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) {
+        const double share = dragged ? theta / (1 + drag(i)) : theta,
+                     own = wetness(depth(i), larger(last(i), 0.0));
         const Vec<double, D> arrived = at(carried, i);
         put(before, i, share * arrived + (1 - theta) * (arrived + own * (at(v, i) - arrived)));
       });
@@ -200,11 +206,13 @@ void EulerianSph<D>::slow_down(const VecField<double, D>& v) {
   const Field<double> drag = drag_;
   const VecField<double, D> slowed = v;
   if (drag.extent(0) == 0) return;
-  launch("sisph::slow_down", Range(0, particles_.size()),
-         KOKKOS_LAMBDA(int i) { put(slowed, i, (1 / (1 + drag(i))) * at(slowed, i)); });
+  launch(
+      "sisph::slow_down", Range(0, particles_.size()),
+      KOKKOS_LAMBDA(int i) { put(slowed, i, (1 / (1 + drag(i))) * at(slowed, i)); });
 }
 
-// What viscosity changes the velocities by: from where the pressure and the friction of the step's start alone would take them.
+// What viscosity changes the velocities by: from where the pressure and the friction of the step's start
+// alone would take them.
 template <int D>
 void EulerianSph<D>::find_viscous(double dt) {
   if (!viscosity_) return;
@@ -228,7 +236,8 @@ void EulerianSph<D>::solve_surface(double dt, bool drying) {
   report_.unsettled += r.converged ? 0 : 1;
 }
 
-// The state at n+1: velocities stop where no water is left. Films run off without end: what no sum over the water could tell is none.
+// The state at n+1: velocities stop where no water is left. Films run off without end: what no sum over the
+// water could tell is none.
 template <int D>
 void EulerianSph<D>::accept(double dt, bool closed) {
   constexpr double rounding = 1e-18;  // of the deepest
@@ -241,7 +250,8 @@ void EulerianSph<D>::accept(double dt, bool closed) {
   const Field<double> depth = now.depth, found = surface_.depth(), omega = geometry_.omega;
   const Field<double> mass = particles_.real("mass");
   const double dust = rounding * celerity_ * celerity_ / scene_.gravity;
-  launch("sisph::accept", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) {
+  launch(
+      "sisph::accept", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) {
         const bool wet = found(i) > dust;
         depth(i) = wet ? found(i) : 0.0;
         mass(i) = omega(i) * depth(i);
@@ -252,7 +262,9 @@ void EulerianSph<D>::accept(double dt, bool closed) {
 template <int D>
 double EulerianSph<D>::stable_dt() const {
   constexpr double mass_flux_limit = 0.7;  // |v| dt / dx
-  const double wanted = scene_.sisph.advection, limit = wanted > 0 ? wanted : fluxes_ ? mass_flux_limit : 1e300;
+  const double wanted = scene_.sisph.advection, limit = wanted > 0 ? wanted
+                                                        : fluxes_  ? mass_flux_limit
+                                                                   : 1e300;
   return std::min(Base::longest_step(), limit * scene_.water.spacing / std::max(speed_, 1e-300));
 }
 

@@ -1,13 +1,14 @@
 // Formulation E of semi-implicit SPH: particles at rest, wet or dry. One step:
-//   velocity before the pressure at n+1 (along particle paths, or carried by the mass fluxes), a linear or (with drying)
-//   piecewise linear system for the free surface, fluxes and depths from it, the pressure at n+1; repeated (Picard).
+//   velocity before the pressure at n+1 (along particle paths, or carried by the mass fluxes), a linear or
+//   (with drying) piecewise linear system for the free surface, fluxes and depths from it, the pressure at
+//   n+1; repeated (Picard).
 #pragma once
+#include "kernels/sisph/open/open.hpp"
+#include "kernels/sisph/open/rim.hpp"
 #include "kernels/sisph/pairs/active.hpp"
 #include "kernels/sisph/pairs/closure.hpp"
 #include "kernels/sisph/velocity/conservative.hpp"
 #include "kernels/sisph/velocity/mass_flux.hpp"
-#include "kernels/sisph/open/open.hpp"
-#include "kernels/sisph/open/rim.hpp"
 #include "kernels/sisph/velocity/semi_lagrangian.hpp"
 #include "kernels/sisph/velocity/viscosity.hpp"
 #include "src/methods/sisph/solver.hpp"
@@ -34,8 +35,9 @@ class EulerianSph : public SemiImplicitSph<D> {
 
  private:
   using Base = SemiImplicitSph<D>;
+  using Base::held_, Base::level_of_bed_, Base::g_n2_, Base::drag_, Base::passed_, Base::speed_,
+      Base::celerity_;
   using Base::scene_, Base::kernel_, Base::support_, Base::particles_, Base::order_, Base::report_;
-  using Base::held_, Base::level_of_bed_, Base::g_n2_, Base::drag_, Base::passed_, Base::speed_, Base::celerity_;
   using Base::water;
 
   std::optional<PairSource<D>> pair_source() const;

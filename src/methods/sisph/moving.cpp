@@ -23,8 +23,8 @@ LagrangianSph<D>::LagrangianSph(const Scene& scene)
   const Swarm<D> now = swarm();
   const Vec<double, D> low = to_vec<D>(scene_.domain.low), high = to_vec<D>(scene_.domain.high);
   if (held_ > 0)
-    moving_.set_followers(Followers<D>(particles_.size(), {order_.rows(), now.x, now.id, now.kind, low, high,
-                                                           scene_.water.spacing}));
+    moving_.set_followers(Followers<D>(
+        particles_.size(), {order_.rows(), now.x, now.id, now.kind, low, high, scene_.water.spacing}));
   lay_friction();
   moving_.measure_jump(swarm());
   Base::measure_speeds();
@@ -34,8 +34,16 @@ template <int D>
 MovingOptions LagrangianSph<D>::options() const {
   const Sisph& sisph = scene_.sisph;
   const double h = on_host(particles_.real("h"))(0), dx = scene_.water.spacing;
-  return {scene_.gravity, sisph.theta, sisph.picard, dx, h, support_, lattice_moment<D>(kernel_, h, dx),
-          sisph.exact_slopes, sisph.cg.tolerance, sisph.cg.most};
+  return {scene_.gravity,
+          sisph.theta,
+          sisph.picard,
+          dx,
+          h,
+          support_,
+          lattice_moment<D>(kernel_, h, dx),
+          sisph.exact_slopes,
+          sisph.cg.tolerance,
+          sisph.cg.most};
 }
 
 template <int D>
@@ -44,8 +52,10 @@ void LagrangianSph<D>::require_water() const {
   int dry = 0;
   for (int i = 0; i < particles_.size(); ++i) dry += depth(i) > 0 ? 0 : 1;
   if (dry > 0)
-    throw SceneError(scene_.file + ": error: sisph.formulation = \"moving\" needs water everywhere, and " + std::to_string(dry) +
-                     " particles are dry (those beside the domain counted)\n  help: sisph.formulation = \"at-rest\"");
+    throw SceneError(
+        scene_.file + ": error: sisph.formulation = \"moving\" needs water everywhere, and " +
+        std::to_string(dry) +
+        " particles are dry (those beside the domain counted)\n  help: sisph.formulation = \"at-rest\"");
 }
 
 // Friction of the ground that particles move over: by place, or one for all.
@@ -53,7 +63,8 @@ template <int D>
 void LagrangianSph<D>::lay_friction() {
   if (!scene_.manning) return;
   const Manning& manning = *scene_.manning;
-  for (Field<double>* f : {&g_n2_, &drag_}) *f = Field<double>("sisph.friction", static_cast<std::size_t>(particles_.size()) + lanes);
+  for (Field<double>* f : {&g_n2_, &drag_})
+    *f = Field<double>("sisph.friction", static_cast<std::size_t>(particles_.size()) + lanes);
   ground_ = Base::roughness(scene_.gravity);
   if (!manning.map) assign(g_n2_, scene_.gravity * manning.n * manning.n);
 }
@@ -65,7 +76,9 @@ void LagrangianSph<D>::find_friction(double dt) {
     const NearestTable ground = ground_;
     const VecField<double, D> x = swarm().x;
     const Field<double> g_n2 = g_n2_;
-    launch("sisph::ground", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) { g_n2(i) = ground.at(at(x, i)); });
+    launch(
+        "sisph::ground", Range(0, particles_.size()),
+        KOKKOS_LAMBDA(int i) { g_n2(i) = ground.at(at(x, i)); });
   }
   find_drag<D>(particles_.size(), Base::water(), g_n2_, dt, drag_);
 }
@@ -75,8 +88,8 @@ PathWeights LagrangianSph<D>::path(double dt) const {
   return scene_.sisph.path.weights({scene_.sisph.theta, dt, last_dt_});
 }
 
-// A step, in as many parts as it takes for each to hold: what does not settle, or moves neighbours much further than they should, is
-// tried again with half the step, and steps grow again from there.
+// A step, in as many parts as it takes for each to hold: what does not settle, or moves neighbours much
+// further than they should, is tried again with half the step, and steps grow again from there.
 template <int D>
 void LagrangianSph<D>::step(double t, double dt) {
   constexpr double growth = 1.25, rounding = 1e-9;
@@ -120,19 +133,23 @@ void LagrangianSph<D>::shorten(double t, double dt, const MovingReport& r) {
   allowed_ = 0.5 * dt;
   ++shortened_;
   if (allowed_ >= least * Base::longest_step()) return;
-  const std::string last =
-      " of steps shortened to " + brief(dt, 4) + " s (" + brief(Base::longest_step(), 4) + " s were asked for) ";
+  const std::string last = " of steps shortened to " + brief(dt, 4) + " s (" +
+                           brief(Base::longest_step(), 4) + " s were asked for) ";
   const std::string when = "at t = " + brief(t, 4) + " s ";
   if (!r.solved)
-    throw Diverged("the free surface did not settle: " + when + "the linear system" + last + "was left with " + brief(r.residual, 4) +
+    throw Diverged("the free surface did not settle: " + when + "the linear system" + last +
+                   "was left with " + brief(r.residual, 4) +
                    " of its right-hand side (sisph.cg.tolerance = " + brief(scene_.sisph.cg.tolerance, 4) +
-                   ")\n  help: particles have lost their order or their neighbours: sisph.formulation = \"at-rest\", or a wider "
-                   "sisph.smoothing, or sisph.cg.max above " + std::to_string(scene_.sisph.cg.most));
+                   ")\n  help: particles have lost their order or their neighbours: sisph.formulation = "
+                   "\"at-rest\", or a wider "
+                   "sisph.smoothing, or sisph.cg.max above " +
+                   std::to_string(scene_.sisph.cg.most));
   if (!(r.least_depth > 0))
     throw Diverged("a particle fell dry " + when + "with the last" + last +
                    "and particles that move need water everywhere\n  help: sisph.formulation = \"at-rest\"");
-  throw Diverged("neighbours part too fast: " + when + "with " + brief(r.jump, 4) + " m/s at the end" + last +
-                 "\n  help: sisph.formulation = \"at-rest\", a larger sisph.theta, or a wider sisph.smoothing");
+  throw Diverged(
+      "neighbours part too fast: " + when + "with " + brief(r.jump, 4) + " m/s at the end" + last +
+      "\n  help: sisph.formulation = \"at-rest\", a larger sisph.theta, or a wider sisph.smoothing");
 }
 
 // The order of the places that the particles are in now.

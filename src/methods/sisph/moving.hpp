@@ -1,5 +1,5 @@
-// Formulation L of semi-implicit SPH: particles that move with the water (kernels/sisph/moving/moving.hpp). A step is
-// taken in as many parts as it takes for each to hold.
+// Formulation L of semi-implicit SPH: particles that move with the water (kernels/sisph/moving/moving.hpp). A
+// step is taken in as many parts as it takes for each to hold.
 #pragma once
 #include "kernels/sisph/moving/moving.hpp"
 #include "src/methods/sisph/solver.hpp"
@@ -23,8 +23,9 @@ class LagrangianSph : public SemiImplicitSph<D> {
 
  private:
   using Base = SemiImplicitSph<D>;
-  using Base::scene_, Base::kernel_, Base::support_, Base::particles_, Base::order_, Base::bed_, Base::report_;
   using Base::held_, Base::g_n2_, Base::drag_, Base::celerity_;
+  using Base::scene_, Base::kernel_, Base::support_, Base::particles_, Base::order_, Base::bed_,
+      Base::report_;
 
   MovingOptions options() const;
   void require_water() const;

@@ -1,8 +1,8 @@
 // Formulation E's open boundaries: who stands behind them, and what they hold there.
-#include "src/scene/sections/boundaries/open_law.hpp"
-#include "src/scene/place/place.hpp"
 #include "src/methods/sisph/at_rest.hpp"
 #include "src/methods/sisph/side_at.hpp"
+#include "src/scene/place/place.hpp"
+#include "src/scene/sections/boundaries/open_law.hpp"
 
 namespace freshet::sisph {
 

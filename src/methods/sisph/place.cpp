@@ -12,16 +12,21 @@ namespace freshet::sisph {
 namespace {
 
 void require(bool holds, const std::string& what, const std::string& remedy = "") {
-  if (!holds) throw SceneError("the method \"sisph\" does not know " + what + " yet\n  help: " + remedy + "use scene.method = \"sph-swe\"");
+  if (!holds)
+    throw SceneError("the method \"sisph\" does not know " + what + " yet\n  help: " + remedy +
+                     "use scene.method = \"sph-swe\"");
 }
 
 void require_known(const Scene& scene) {
   require(!scene.split && !scene.merge, "splitting and merging ([split], [merge])");
-  require(scene.water.start == freshet::Water::Start::cells, "any water.start but \"cells\"", "set water.start = \"cells\", or ");
+  require(scene.water.start == freshet::Water::Start::cells, "any water.start but \"cells\"",
+          "set water.start = \"cells\", or ");
   require_on_sides(scene);
 }
 
-double cell_area(const Scene& scene) { return cell_width(scene, 0) * (scene.domain.dimension == 2 ? cell_width(scene, 1) : 1.0); }
+double cell_area(const Scene& scene) {
+  return cell_width(scene, 0) * (scene.domain.dimension == 2 ? cell_width(scene, 1) : 1.0);
+}
 
 // The scene with room for the rim: cells of a support beyond each side of the domain.
 Scene with_rim(const Scene& scene, double support) {
@@ -78,12 +83,15 @@ MirrorWalls<D> SemiImplicitSph<D>::mirror_walls() const {
   const double dx = scene_.water.spacing;
   return MirrorWalls<D>(lines, (2 * support_ * scene_.sisph.smoothing + 2) * dx, [&](const Point& end) {
     for (std::size_t axis = 0; axis < 2; ++axis)
-      if (std::abs(end[axis] - domain.low[axis]) < 0.5 * dx || std::abs(end[axis] - domain.high[axis]) < 0.5 * dx) return true;
+      if (std::abs(end[axis] - domain.low[axis]) < 0.5 * dx ||
+          std::abs(end[axis] - domain.high[axis]) < 0.5 * dx)
+        return true;
     return false;
   });
 }
 
-// Every cell has a particle, dry or wet. Depths below a billionth of the deepest are what rounding leaves of dry land.
+// Every cell has a particle, dry or wet. Depths below a billionth of the deepest are what rounding leaves of
+// dry land.
 template <int D>
 void SemiImplicitSph<D>::place_particles() {
   constexpr double rounding = 1e-9;
@@ -91,7 +99,8 @@ void SemiImplicitSph<D>::place_particles() {
   const Scene wider = with_rim(scene_, support_);
   bed_ = bed_spline<D>(scene_, wider.domain);
   std::vector<StartCell> start;
-  const double whole = scene_.sisph.smoothing * (D == 2 ? std::sqrt(cell_area(scene_)) : cell_area(scene_));  // beside walls, too
+  const double whole = scene_.sisph.smoothing *
+                       (D == 2 ? std::sqrt(cell_area(scene_)) : cell_area(scene_));  // beside walls, too
   double deepest = 0, covered = 0;
   int inside = 0;
   for (Placed& p : place(wider, [](double, double) { return 1.0; })) {
@@ -120,8 +129,8 @@ Geometry<D> SemiImplicitSph<D>::measure() {
   const int n = particles_.size();
   const bool linear = scene_.sisph.exact_slopes;
   const WaterFields<D> sorted = bind();
-  const GeometryRequest<D> request{order_.rows(), sorted.x, sorted.h, sorted.kind, scene_.water.spacing,
-                                   cell_, mirror_walls(), linear};
+  const GeometryRequest<D> request{order_.rows(),        sorted.x, sorted.h,       sorted.kind,
+                                   scene_.water.spacing, cell_,    mirror_walls(), linear};
   const Geometry<D> geometry = measure_geometry<D>(n, kernel_, request);
   if (geometry.images.count > 0) {  // room for their vectors
     particles_.resize(geometry.images.slots() + lanes);
@@ -130,7 +139,8 @@ Geometry<D> SemiImplicitSph<D>::measure() {
   const WaterFields<D> f = bind();
   level_of_bed_ = bed_ ? f.bed : Field<double>("sisph.flat_bed", static_cast<std::size_t>(n) + lanes);
   const Field<double> mass = f.mass, depth = f.depth, omega = geometry.omega;
-  launch("sisph::fill", Range(0, n), KOKKOS_LAMBDA(int i) { mass(i) = omega(i) * depth(i); });
+  launch(
+      "sisph::fill", Range(0, n), KOKKOS_LAMBDA(int i) { mass(i) = omega(i) * depth(i); });
   return geometry;
 }
 

@@ -16,9 +16,9 @@ Totals SemiImplicitSph<D>::totals() const {
   Totals totals = passed_;
   const Field<double> mass = particles_.real("mass");
   const Field<int> kind = particles_.integer("kind");
-  totals.mass = sum_of_particles<1>("sisph::mass", particles_.size(), KOKKOS_LAMBDA(int i) {
-    return Addends<1>{{kind(i) > 0 ? 0.0 : mass(i)}};
-  })[0];
+  totals.mass = sum_of_particles<1>(
+      "sisph::mass", particles_.size(),
+      KOKKOS_LAMBDA(int i) { return Addends<1>{{kind(i) > 0 ? 0.0 : mass(i)}}; })[0];
   return totals;
 }
 
@@ -39,13 +39,14 @@ Mechanics SemiImplicitSph<D>::mechanics() const {
   const Field<double> mass = particles_.real("mass");
   const Field<int> kind = particles_.integer("kind");
   const double g = scene_.gravity;
-  const auto sums = sum_of_particles<4>("sisph::mechanics", particles_.size(), KOKKOS_LAMBDA(int i) {
-    const Vec<double, D> v = at(now.v, i);
-    const double h = now.depth(i), m = kind(i) > 0 ? 0.0 : mass(i);
-    double across = 0;
-    if constexpr (D == 2) across = v.y;
-    return Addends<4>{{m * v.x, m * across, 0.5 * m * dot(v, v), m * g * (now.bed(i) + 0.5 * h)}};
-  });
+  const auto sums = sum_of_particles<4>(
+      "sisph::mechanics", particles_.size(), KOKKOS_LAMBDA(int i) {
+        const Vec<double, D> v = at(now.v, i);
+        const double h = now.depth(i), m = kind(i) > 0 ? 0.0 : mass(i);
+        double across = 0;
+        if constexpr (D == 2) across = v.y;
+        return Addends<4>{{m * v.x, m * across, 0.5 * m * dot(v, v), m * g * (now.bed(i) + 0.5 * h)}};
+      });
   return {{sums[0], sums[1]}, sums[2], sums[3]};
 }
 
@@ -69,8 +70,8 @@ std::vector<std::string> EulerianSph<D>::features() const {
   if (conservative_) names.push_back("conservative pressure");
   if (scene_.sisph.recomputed) names.push_back("coefficients found anew in every product");
   if (closure_.iterations > 0)
-    names.push_back("pair areas closed in " + std::to_string(closure_.iterations) + " iterations, largest change " +
-                    std::to_string(closure_.change));
+    names.push_back("pair areas closed in " + std::to_string(closure_.iterations) +
+                    " iterations, largest change " + std::to_string(closure_.change));
   if (closure_.negative > 0) names.push_back(std::to_string(closure_.negative) + " pair areas below zero");
   const char* held = scene_.sisph.slip ? "" : "; walls hold the water";
   if (viscosity_) sides.push_back(std::string("viscosity, implicit") + held);
@@ -92,15 +93,17 @@ std::vector<std::string> LagrangianSph<D>::features() const {
 template <int D>
 std::vector<std::string> LagrangianSph<D>::notes() const {
   if (shortened_ == 0) return {};
-  return {"steps were tried again with half their length " + std::to_string(shortened_) +
-          " times: neighbours would have moved further than sisph.jump allows, or the surface did not settle"};
+  return {
+      "steps were tried again with half their length " + std::to_string(shortened_) +
+      " times: neighbours would have moved further than sisph.jump allows, or the surface did not settle"};
 }
 
 template <int D>
 ScalarState SemiImplicitSph<D>::scalars() const {
   return {{"passed", {passed_.inflow, passed_.outflow}},
-          {"solver", {number(report_.passes), number(report_.solves), number(report_.iterations), number(report_.unsettled),
-                      number(report_.newton_max)}}};
+          {"solver",
+           {number(report_.passes), number(report_.solves), number(report_.iterations),
+            number(report_.unsettled), number(report_.newton_max)}}};
 }
 
 template <int D>

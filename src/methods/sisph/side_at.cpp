@@ -49,8 +49,10 @@ void require_on_sides(const Scene& scene) {
   for (const OpenBoundary& boundary : scene.boundaries)
     for (std::size_t k = 0; k + 1 < boundary.line.size(); ++k)
       if (!is_on_side(scene.domain, boundary.line[k], boundary.line[k + 1], 1e-3 * scene.water.spacing))
-        throw SceneError("the method \"sisph\" knows open boundaries on the sides of the domain alone, and \"" + boundary.name +
-                         "\" leaves them\n  help: boundary.side = \"left\", ..., or scene.method = \"sph-swe\"");
+        throw SceneError(
+            "the method \"sisph\" knows open boundaries on the sides of the domain alone, and \"" +
+            boundary.name +
+            "\" leaves them\n  help: boundary.side = \"left\", ..., or scene.method = \"sph-swe\"");
 }
 
 }  // namespace freshet::sisph

@@ -1,4 +1,5 @@
-// What lies on the side of the domain that a place outside it stands behind: a wall, an open boundary, or neither.
+// What lies on the side of the domain that a place outside it stands behind: a wall, an open boundary, or
+// neither.
 #pragma once
 #include "src/scene/scene.hpp"
 

@@ -17,13 +17,17 @@ void SemiImplicitSph<D>::measure_speeds() {
   constexpr double thin = 0.01;  // of the deepest
   const Layer<D> now = water();
   double deepest = 0, fastest2 = 0;
-  Kokkos::parallel_reduce("sisph::deepest", Range(0, particles_.size()),
+  Kokkos::parallel_reduce(
+      "sisph::deepest", Range(0, particles_.size()),
       KOKKOS_LAMBDA(int i, double& m) { m = larger(m, now.depth(i)); }, Kokkos::Max<double>(deepest));
   const double least = thin * deepest;
-  Kokkos::parallel_reduce("sisph::fastest", Range(0, particles_.size()), KOKKOS_LAMBDA(int i, double& m) {
+  Kokkos::parallel_reduce(
+      "sisph::fastest", Range(0, particles_.size()),
+      KOKKOS_LAMBDA(int i, double& m) {
         const Vec<double, D> v = at(now.v, i);
         if (now.depth(i) > least) m = larger(m, dot(v, v));
-      }, Kokkos::Max<double>(fastest2));
+      },
+      Kokkos::Max<double>(fastest2));
   celerity_ = std::sqrt(scene_.gravity * deepest);
   speed_ = std::sqrt(fastest2);
 }

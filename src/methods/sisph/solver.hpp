@@ -1,10 +1,11 @@
-// Semi-implicit SPH for the shallow water equations (Bankole 2016, ch. 5-7, corrected): gravity waves are implicit,
-// so the celerity does not bound the step. What its two formulations share: where particles start, walls, the state
-// of the water and what is told of it. E, particles at rest: at_rest.hpp; L, those that move with it: moving.hpp.
+// Semi-implicit SPH for the shallow water equations (Bankole 2016, ch. 5-7, corrected): gravity waves are
+// implicit, so the celerity does not bound the step. What its two formulations share: where particles start,
+// walls, the state of the water and what is told of it. E, particles at rest: at_rest.hpp; L, those that move
+// with it: moving.hpp.
 #pragma once
 #include "cellgrid/particles/sums.hpp"
-#include "kernels/sisph/velocity/friction.hpp"
 #include "kernels/sisph/particles.hpp"
+#include "kernels/sisph/velocity/friction.hpp"
 #include "src/methods/shallow_water.hpp"
 
 namespace freshet::sisph {
@@ -20,7 +21,8 @@ class SemiImplicitSph : public ShallowWater<D> {
 
  protected:
   using Base = ShallowWater<D>;
-  using Base::scene_, Base::kernel_, Base::support_, Base::particles_, Base::order_, Base::bed_, Base::report_;
+  using Base::scene_, Base::kernel_, Base::support_, Base::particles_, Base::order_, Base::bed_,
+      Base::report_;
 
   explicit SemiImplicitSph(const Scene& scene);
   MirrorWalls<D> mirror_walls() const;
@@ -31,7 +33,7 @@ class SemiImplicitSph : public ShallowWater<D> {
   std::vector<std::string> features_with(const std::vector<std::string>& formulation,
                                          const std::vector<std::string>& sides) const;
 
- public:  // device lambdas may not live in private members
+ public:                  // device lambdas may not live in private members
   Geometry<D> measure();  // sorts; fills the masses
   void measure_speeds();
 

@@ -33,8 +33,10 @@ template <int D>
 void ExplicitSph<D>::make_room() {
   const int room = particles_.capacity();
   if (!scene_.sph.mixed || single_.motion.extent_int(0) == room) return;
-  single_.motion = Kokkos::View<SingleRecord<4>*, Memory>(Kokkos::view_alloc("single_motion", Kokkos::WithoutInitializing), room);
-  single_.state = Kokkos::View<SingleRecord<16>*, Memory>(Kokkos::view_alloc("single_state", Kokkos::WithoutInitializing), room);
+  single_.motion = Kokkos::View<SingleRecord<4>*, Memory>(
+      Kokkos::view_alloc("single_motion", Kokkos::WithoutInitializing), room);
+  single_.state = Kokkos::View<SingleRecord<16>*, Memory>(
+      Kokkos::view_alloc("single_state", Kokkos::WithoutInitializing), room);
 }
 
 template <int D>

@@ -1,4 +1,5 @@
-// From a scene's open boundaries and walls to the solver's: pieces, what they impose, and how walls go on beside the buffers.
+// From a scene's open boundaries and walls to the solver's: pieces, what they impose, and how walls go on
+// beside the buffers.
 #include <algorithm>
 #include <cmath>
 
@@ -11,8 +12,9 @@ namespace {
 
 using Boundary = freshet::OpenBoundary;
 
-constexpr double wall_cells = 8;      // a wall beside a buffer is so long
-constexpr double least_outward = 0.2;  // sine: a wall that meets the line at a smaller angle runs along it, not out of it
+constexpr double wall_cells = 8;  // a wall beside a buffer is so long
+constexpr double least_outward =
+    0.2;  // sine: a wall that meets the line at a smaller angle runs along it, not out of it
 
 bool meet(const Vec<double, 2>& a, const Point& b, double spacing) {
   return freshet::meet({a.x, a.y}, b, 1e-3 * spacing);
@@ -38,7 +40,8 @@ std::optional<Vec<double, 2>> wall_direction(const std::vector<Wall>& walls, con
   return {};
 }
 
-// How a buffer widens at one end of its piece: half of the bend towards another piece, or along an oblique wall.
+// How a buffer widens at one end of its piece: half of the bend towards another piece, or along an oblique
+// wall.
 double spread(const Scene& scene, const std::vector<Piece>& pieces, const Piece& piece, bool at_b) {
   const double spacing = scene.water.spacing;
   const Vec<double, 2> end = at_b ? piece.b : piece.a;
@@ -53,7 +56,8 @@ double spread(const Scene& scene, const std::vector<Piece>& pieces, const Piece&
 OpenLine<1> open_line(const Scene&, const std::vector<Piece>&, const Piece& piece, Vec<double, 1>) {
   return {{piece.a.x}, {piece.a.y > piece.b.y ? 1.0 : -1.0}, {0.0}, 1.0};
 }
-OpenLine<2> open_line(const Scene& scene, const std::vector<Piece>& pieces, const Piece& piece, Vec<double, 2>) {
+OpenLine<2> open_line(const Scene& scene, const std::vector<Piece>& pieces, const Piece& piece,
+                      Vec<double, 2>) {
   const double spread_a = spread(scene, pieces, piece, false), spread_b = spread(scene, pieces, piece, true);
   return {piece.a, piece.normal, piece.tangent, piece.length, spread_a, spread_b};
 }
@@ -66,8 +70,8 @@ std::vector<double> times_of(const Boundary& b) {
   return times;
 }
 
-// A wall that ends on an open line goes on beside its buffer, by whole cells of the lattice that fits its length. One that runs
-// along the line ends there.
+// A wall that ends on an open line goes on beside its buffer, by whole cells of the lattice that fits its
+// length. One that runs along the line ends there.
 void extend_end(Point& end, const Point& before, const std::vector<Piece>& pieces, double spacing) {
   for (const Piece& piece : pieces) {
     if (!meet(piece.a, end, spacing) && !meet(piece.b, end, spacing)) continue;
@@ -94,10 +98,12 @@ void ExplicitSph<D>::build_boundaries() {
   int owner = 1;
   for (const Boundary& b : scene_.boundaries) {
     std::vector<OpenLine<D>> lines;
-    for (size_t k = 0; k + 1 < b.line.size(); ++k) lines.push_back(open_line(scene_, all, *piece++, Vec<double, D>{}));
-    const OpenBufferOptions options{b.spacing > 0 ? b.spacing : scene_.water.spacing, scene_.sph.eta, support_,
-                                    lattice_sums<D>(scene_.sph.eta, kernel_).density, friction_};
-    boundaries_.emplace_back(lines, [b](double t) { return b.at(t); }, times_of(b), options, scene_.gravity, owner);
+    for (size_t k = 0; k + 1 < b.line.size(); ++k)
+      lines.push_back(open_line(scene_, all, *piece++, Vec<double, D>{}));
+    const OpenBufferOptions options{b.spacing > 0 ? b.spacing : scene_.water.spacing, scene_.sph.eta,
+                                    support_, lattice_sums<D>(scene_.sph.eta, kernel_).density, friction_};
+    boundaries_.emplace_back(
+        lines, [b](double t) { return b.at(t); }, times_of(b), options, scene_.gravity, owner);
     owner += boundaries_.back().pieces();
   }
 }
@@ -113,7 +119,8 @@ void ExplicitSph<D>::build_walls() {
     lines.push_back(wall.line);
     if (D == 2) extend_past(lines.back(), pieces, spacing);
   }
-  const Point middle{0.5 * (scene_.domain.low[0] + scene_.domain.high[0]), 0.5 * (scene_.domain.low[1] + scene_.domain.high[1])};
+  const Point middle{0.5 * (scene_.domain.low[0] + scene_.domain.high[0]),
+                     0.5 * (scene_.domain.low[1] + scene_.domain.high[1])};
   const WallKind kind = scene_.sph.walls.resolved(D == 1 || only_right_corners(lines));
   // Rows reach as deep as the support of an h half as long again as the first.
   const double dx = scene_.water.spacing, reach = 1.5 * support_ * scene_.sph.eta * dx;
@@ -127,8 +134,11 @@ void ExplicitSph<D>::fill_boundaries() {
   order_.sort(particles_);
   order_.measure_reach(particles_, particles_.real("h"), support_);
   const Particles<D> p = bind();
-  launch("swe::invert_h", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) { p.inv_h(i) = 1.0 / p.h(i); });
-  for (auto& boundary : boundaries_) boundary.fill(order_.rows(), particles_, [this] { return bind(); }, bed_term(), next_id_);
+  launch(
+      "swe::invert_h", Range(0, particles_.size()), KOKKOS_LAMBDA(int i) { p.inv_h(i) = 1.0 / p.h(i); });
+  for (auto& boundary : boundaries_)
+    boundary.fill(
+        order_.rows(), particles_, [this] { return bind(); }, bed_term(), next_id_);
 }
 
 template class ExplicitSph<1>;

@@ -4,8 +4,8 @@
 
 namespace freshet::swe {
 
-// On slopes below 1e-3 the variational acceleration differs from the classical one by 1e-6 g: the bed's curvature is not
-// looked up there.
+// On slopes below 1e-3 the variational acceleration differs from the classical one by 1e-6 g: the bed's
+// curvature is not looked up there.
 template <int D>
 void ExplicitSph<D>::build_ground() {
   constexpr double flat = 1e-3;

@@ -19,7 +19,8 @@ double largest(const AreaLimit& limit, double cell, double area) {
   return limit.elsewhere ? std::max(area, *limit.elsewhere * cell) : area;
 }
 
-// 15 degrees: the corners of neighbours on a square lattice then pass each other at equal distances along x and y.
+// 15 degrees: the corners of neighbours on a square lattice then pass each other at equal distances along x
+// and y.
 constexpr double turn = pi / 12;
 
 }  // namespace
@@ -34,17 +35,24 @@ void ExplicitSph<D>::build_refinement() {
   std::optional<SplitOptions> splitting;
   std::optional<MergeOptions> merging;
   if (split)
-    splitting = SplitOptions{split_pattern<D>(split->into, split->alpha, split->eps, turn), split_area, split->alpha,
-                             split->linear, split->least_depth, split->most_particles};
+    splitting = SplitOptions{split_pattern<D>(split->into, split->alpha, split->eps, turn),
+                             split_area,
+                             split->alpha,
+                             split->linear,
+                             split->least_depth,
+                             split->most_particles};
   if (merge) merging = MergeOptions{in_metres(merge->area, cell, 0.0), split_area, merge->reach};
-  const double area = std::max(split ? largest(split->area, cell, cell) : cell, merge ? 2 * largest(merge->area, cell, cell) : cell);
-  refinement_.emplace(splitting, merging, RelaxOptions{scene_.sph.eta, scene_.gravity, split ? split->relax : merge->relax,
-                                                       scene_.sph.eta * std::pow(area, 1.0 / D)});
+  const double area = std::max(split ? largest(split->area, cell, cell) : cell,
+                               merge ? 2 * largest(merge->area, cell, cell) : cell);
+  refinement_.emplace(splitting, merging,
+                      RelaxOptions{scene_.sph.eta, scene_.gravity, split ? split->relax : merge->relax,
+                                   scene_.sph.eta * std::pow(area, 1.0 / D)});
 }
 
 template <int D>
 void ExplicitSph<D>::refine() {
-  refinement_->adapt(particles_, [this] { return bind(); }, kind(), clusters_, neighbours_.view(), wall_view(), next_id_);
+  refinement_->adapt(
+      particles_, [this] { return bind(); }, kind(), clusters_, neighbours_.view(), wall_view(), next_id_);
 }
 
 template void ExplicitSph<1>::build_refinement();

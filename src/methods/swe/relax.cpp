@@ -12,7 +12,8 @@ namespace {
 
 // The level of the scene's water where it is a lake at rest, to be relaxed over its own bed.
 std::optional<double> lake_level(const Scene& scene) {
-  if (!scene.water.surface || !scene.bed.elevation || scene.water.velocity[0] || scene.water.velocity[1]) return {};
+  if (!scene.water.surface || !scene.bed.elevation || scene.water.velocity[0] || scene.water.velocity[1])
+    return {};
   const std::vector<Placed> cells = place(scene, scene.water.depth);
   const double level = scene.water.surface(cells[0].x[0], cells[0].x[1]);
   for (const Placed& cell : cells)
@@ -28,25 +29,30 @@ Scene still_water(const Scene& scene, bool lake) {
     still.water.velocity = {};
     still.water.depth = [](double, double) { return 1.0; };
   }
-  still.sph.newton_tolerance = 1e-20;  // where the particles come to rest hangs on the tenth digit of their pressures
+  still.sph.newton_tolerance =
+      1e-20;  // where the particles come to rest hangs on the tenth digit of their pressures
   still.manning.reset();
   still.sph.well_balanced = false;
   LaxFriedrichs plain;
-  if (const auto* muscl = std::get_if<LaxFriedrichsMuscl>(&scene.sph.stabilisation)) plain.strength = muscl->strength;
+  if (const auto* muscl = std::get_if<LaxFriedrichsMuscl>(&scene.sph.stabilisation))
+    plain.strength = muscl->strength;
   if (const auto* same = std::get_if<LaxFriedrichs>(&scene.sph.stabilisation)) plain = *same;
   still.sph.stabilisation = plain;
   return still;
 }
 
-// One step of the relaxation: v falls, and the masses follow the areas that the particles have, until every density is the
-// depth there: level - bed, over a flat bed 1, and never below least [m], where a particle has run up a shore.
+// One step of the relaxation: v falls, and the masses follow the areas that the particles have, until every
+// density is the depth there: level - bed, over a flat bed 1, and never below least [m], where a particle has
+// run up a shore.
 void settle(const FieldSet& fields, int dimension, double eta, double level, double least) {
   constexpr double slowing = 0.95, sharing = 0.05;
   const Field<double> u = fields.real("u"), v = fields.real(dimension == 2 ? "v" : "u");
-  const Field<double> m = fields.real("mass"), rho = fields.real("depth"), h0 = fields.real("h0"), kh = fields.real("kh");
+  const Field<double> m = fields.real("mass"), rho = fields.real("depth"), h0 = fields.real("h0"),
+                      kh = fields.real("kh");
   const Field<double> bed = fields.has("bed") ? fields.real("bed") : Field<double>();
   const bool plane = dimension == 2;
-  launch("swe::settle", Range(0, fields.size()), KOKKOS_LAMBDA(int i) {
+  launch(
+      "swe::settle", Range(0, fields.size()), KOKKOS_LAMBDA(int i) {
         const double depth = larger(bed.extent(0) > 0 ? level - bed(i) : level, least);
         u(i) *= slowing;
         if (plane) v(i) *= slowing;
@@ -59,17 +65,19 @@ void settle(const FieldSet& fields, int dimension, double eta, double level, dou
 double fastest(const FieldSet& fields, int dimension) {
   const Field<double> u = fields.real("u"), v = fields.real(dimension == 2 ? "v" : "u");
   double most = 0;
-  Kokkos::parallel_reduce("swe::fastest", Range(0, fields.size()),
-                          KOKKOS_LAMBDA(int i, double& m) { m = larger(m, larger(::fabs(u(i)), ::fabs(v(i)))); },
-                          Kokkos::Max<double>(most));
+  Kokkos::parallel_reduce(
+      "swe::fastest", Range(0, fields.size()),
+      KOKKOS_LAMBDA(int i, double& m) { m = larger(m, larger(::fabs(u(i)), ::fabs(v(i)))); },
+      Kokkos::Max<double>(most));
   return most;
 }
 
 double deepest_of(const FieldSet& fields) {
   const Field<double> rho = fields.real("depth");
   double deepest = 0;
-  Kokkos::parallel_reduce("swe::deepest", Range(0, fields.size()), KOKKOS_LAMBDA(int i, double& d) { d = larger(d, rho(i)); },
-                          Kokkos::Max<double>(deepest));
+  Kokkos::parallel_reduce(
+      "swe::deepest", Range(0, fields.size()), KOKKOS_LAMBDA(int i, double& d) { d = larger(d, rho(i)); },
+      Kokkos::Max<double>(deepest));
   return deepest;
 }
 

@@ -4,8 +4,8 @@
 
 #include "kernels/swe/density/depth_gradient.hpp"
 #include "kernels/swe/density/lattice.hpp"
-#include "kernels/swe/single_precision.hpp"
 #include "kernels/swe/force/well_balanced.hpp"
+#include "kernels/swe/single_precision.hpp"
 #include "src/errors.hpp"
 
 namespace freshet::swe {
@@ -53,7 +53,8 @@ ExplicitSph<D>::ExplicitSph(const Scene& scene, const std::vector<Placed>& start
   fill_boundaries();
   find_neighbours();
   if (scene_.sph.well_balanced)
-    calibrate_density<D>(kernel_, clusters_, neighbours_.view(), wall_view(), bind(), particles_.real("calibration"));
+    calibrate_density<D>(kernel_, clusters_, neighbours_.view(), wall_view(), bind(),
+                         particles_.real("calibration"));
   evaluate(0, 0);
   for (auto& boundary : boundaries_) {
     boundary.observe(order_.rows(), bind(), kind(), bed_term());
@@ -66,7 +67,8 @@ void ExplicitSph<D>::step(double t, double dt) {
   kick_and_drift<D>(bind(), motion(), particles_.size(), dt);
   if (walls_) walls_->reflect(clusters_, bind().x, bind().v, bind().v_pred);
   for (auto& boundary : boundaries_)
-    boundary.exchange(particles_, [this] { return bind(); }, bed_term(), t + dt, dt, next_id_);
+    boundary.exchange(
+        particles_, [this] { return bind(); }, bed_term(), t + dt, dt, next_id_);
   if (refinement_) refine();
   find_neighbours();
   if (refinement_) refinement_->relax(clusters_, neighbours_.view(), bind(), kind(), dt);
@@ -84,7 +86,8 @@ void ExplicitSph<D>::evaluate(double kick_dt, double ahead) {
   if (scene_.sph.mixed) copy_state<D>(bind(), particles_.size());
   internal_force<D>(kernel_, clusters_, neighbours_.view(), wall_view(), bind(), stabilise_);
   if (scene_.sph.well_balanced && bed_)
-    add_balanced_bed<D>(kernel_, clusters_, neighbours_.view(), wall_view(), bind(), *bed_term(), scene_.gravity);
+    add_balanced_bed<D>(kernel_, clusters_, neighbours_.view(), wall_view(), bind(), *bed_term(),
+                        scene_.gravity);
   crossing_time_ = accelerate_and_kick<D>(bind(), motion(), particles_.size(), kick_dt);
 }
 
@@ -108,23 +111,28 @@ void ExplicitSph<D>::list_neighbours() {
 template <int D>
 void ExplicitSph<D>::close_density(double ahead) {
   constexpr int most_lists = 20;  // each may grow h by the margin at most before it is made again
-  DensityOptions options{scene_.gravity, scene_.sph.newton_tolerance, margin_,
-                         {scene_.sph.h_floor, scene_.sph.h_cap}, gradient_, imposed_alpha_, ahead,
-                         scene_.sph.well_balanced ? particles_.real("calibration") : Field<double>()};
+  DensityOptions options{
+      scene_.gravity, scene_.sph.newton_tolerance,
+      margin_,        {scene_.sph.h_floor, scene_.sph.h_cap},
+      gradient_,      imposed_alpha_,
+      ahead,          scene_.sph.well_balanced ? particles_.real("calibration") : Field<double>()};
   for (int lists = 0; lists < most_lists; ++lists) {
-    const DensityReport r = solve_density<D>(kernel_, clusters_, neighbours_.view(), wall_view(), bind(), {kind()}, options);
+    const DensityReport r =
+        solve_density<D>(kernel_, clusters_, neighbours_.view(), wall_view(), bind(), {kind()}, options);
     report_.newton_mean = r.newton_mean;
     report_.newton_max = r.newton_max;
     report_.capped = r.capped;
     report_.floored = r.floored;
     if (r.outgrown == 0) return;
     ++report_.rebuilds;
-    options.ahead = 0;  // the rate of the step before is overwritten, perhaps by that of a particle without its neighbours
+    options.ahead = 0;  // the rate of the step before is overwritten, perhaps by that of a particle without
+                        // its neighbours
     list_neighbours();
   }
-  throw Diverged("the density did not settle: some smoothing length still outgrows its neighbour list after " +
-                 std::to_string(most_lists) + " lists; limit: growth by " + std::to_string(margin_) +
-                 " per list\n  help: a smaller time.cfl, or look at the start for particles on top of each other");
+  throw Diverged(
+      "the density did not settle: some smoothing length still outgrows its neighbour list after " +
+      std::to_string(most_lists) + " lists; limit: growth by " + std::to_string(margin_) +
+      " per list\n  help: a smaller time.cfl, or look at the start for particles on top of each other");
 }
 
 template <int D>
@@ -137,8 +145,13 @@ double ExplicitSph<D>::stable_dt() const {
 template <int D>
 MotionOptions<D> ExplicitSph<D>::motion() const {
   // In a well-balanced run t holds the bed's part already.
-  return {scene_.gravity, {scene_.sph.h_floor, scene_.sph.h_cap}, scene_.sph.well_balanced ? std::nullopt : bed_term(), friction_,
-          friction_ ? particles_.real("drag") : Field<double>(), {kind()}, walls_.has_value()};
+  return {scene_.gravity,
+          {scene_.sph.h_floor, scene_.sph.h_cap},
+          scene_.sph.well_balanced ? std::nullopt : bed_term(),
+          friction_,
+          friction_ ? particles_.real("drag") : Field<double>(),
+          {kind()},
+          walls_.has_value()};
 }
 
 template class ExplicitSph<1>;

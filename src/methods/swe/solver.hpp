@@ -32,7 +32,8 @@ class ExplicitSph : public ShallowWater<D> {
 
  private:
   using Base = ShallowWater<D>;
-  using Base::scene_, Base::kernel_, Base::support_, Base::particles_, Base::order_, Base::bed_, Base::report_;
+  using Base::scene_, Base::kernel_, Base::support_, Base::particles_, Base::order_, Base::bed_,
+      Base::report_;
 
   void build_ground();
   void build_walls();
@@ -53,7 +54,7 @@ class ExplicitSph : public ShallowWater<D> {
   void evaluate(double kick_dt, double ahead);
   WallView<D> wall_view() const { return walls_ ? walls_->view() : WallView<D>{}; }
 
-  double margin_;  // growth of h within a step that the neighbour list covers; more makes it again
+  double margin_;        // growth of h within a step that the neighbour list covers; more makes it again
   SingleCopies single_;  // of a scene with mixed precision
   ClusterSet clusters_;
   NeighbourList neighbours_;

@@ -1,5 +1,6 @@
-// The modelled work of a step's launches, without that of walls and open boundaries. The counts of the pair passes hold for 2-D and the
-// cubic spline; other scenes get what comes of the same counts, with their own numbers of pairs.
+// The modelled work of a step's launches, without that of walls and open boundaries. The counts of the pair
+// passes hold for 2-D and the cubic spline; other scenes get what comes of the same counts, with their own
+// numbers of pairs.
 #include "src/methods/swe/solver.hpp"
 
 namespace freshet::swe {
@@ -21,7 +22,8 @@ std::map<std::string, Work> ExplicitSph<D>::work() const {
   const double n = particles_.size();
   const Particles<D> p = bind();
   const double listed = neighbours_.mean_length(clusters_) * clusters_.size() * lanes;
-  const double pairs = neighbours_.count_pairs<D>(clusters_, {p.x, p.h, order_.rows(), p.x, p.h, support_, 0});
+  const double pairs =
+      neighbours_.count_pairs<D>(clusters_, {p.x, p.h, order_.rows(), p.x, p.h, support_, 0});
   const auto walk = [&](const Cost& cost) { return work_of(cost, n, pairs, listed, lanes); };
   Work density = walk(gradient_ ? density_gradient_cost : density_rate_cost);
   density.flops += (report_.newton_mean - 1) * walk(density_again_cost).flops;

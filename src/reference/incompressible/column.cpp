@@ -30,21 +30,22 @@ double sum_modes(double height, double fade, const Term& term) {
 double face_acceleration(const WaterColumn& c, double y) {
   const double infinite = 2 * c.gravity / pi * std::log(1 / std::tan(pi * y / (4 * c.height)));
   return infinite + sum_modes(c.height, 2 * c.length, [&](int, double k) {
-    return 2 * c.gravity / (k * c.height) * std::cos(k * y) * (std::tanh(k * c.length) - 1);
-  });
+           return 2 * c.gravity / (k * c.height) * std::cos(k * y) * (std::tanh(k * c.length) - 1);
+         });
 }
 
 double top_acceleration(const WaterColumn& c, double x) {
   const double infinite = -4 * c.gravity / pi * std::atan(std::exp(pi * x / (2 * c.height)));
-  return infinite - sum_modes(c.height, c.length, [&](int m, double k) {
+  return infinite - sum_modes(c.height, c.length,
+                              [&](int m, double k) {
     return 2 * c.gravity * (m % 2 == 0 ? 1 : -1) / (k * c.height) * (ratio(k, x, c.length) - std::exp(k * x));
-  });
+         });
 }
 
 double column_pressure(const WaterColumn& c, double x, double y) {
   return c.gravity * (c.height - y) - sum_modes(c.height, -x, [&](int, double k) {
-    return 2 * c.gravity / (k * k * c.height) * std::cos(k * y) * ratio(k, x, c.length);
-  });
+           return 2 * c.gravity / (k * k * c.height) * std::cos(k * y) * ratio(k, x, c.length);
+         });
 }
 
 }  // namespace freshet

@@ -1,6 +1,6 @@
-// A column of water of an ideal fluid, -length < x < 0 and 0 < y < height, the moment its gate at x = 0 is gone: the
-// accelerations of its free face and top (Pohle 1952, Stoker 1957; the series of the finite column). Both are infinite at the
-// face's foot (0, 0); the top's corner falls freely.
+// A column of water of an ideal fluid, -length < x < 0 and 0 < y < height, the moment its gate at x = 0 is
+// gone: the accelerations of its free face and top (Pohle 1952, Stoker 1957; the series of the finite
+// column). Both are infinite at the face's foot (0, 0); the top's corner falls freely.
 #pragma once
 
 namespace freshet {

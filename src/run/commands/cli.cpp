@@ -123,7 +123,9 @@ int run_cli(int argc, char** argv, const Parts& parts) {
     print_error(error.what());
     return static_cast<int>(Exit::scene);
   } catch (const std::bad_alloc&) {
-    print_error("not enough memory\n  help: a larger water.spacing or raster.spacing; 'freshet check' says what a scene takes");
+    print_error(
+        "not enough memory\n  help: a larger water.spacing or raster.spacing; 'freshet check' says what a "
+        "scene takes");
     return static_cast<int>(Exit::scene);
   } catch (const std::exception& error) {
     std::fprintf(stderr,

@@ -1,5 +1,6 @@
-// freshet difference: two runs of one scene, particle by particle, from their state.h5. What two backends, compilers or numbers of
-// threads make of a scene differs by round-off, and by how much it has grown. Reads every saved real field.
+// freshet difference: two runs of one scene, particle by particle, from their state.h5. What two backends,
+// compilers or numbers of threads make of a scene differs by round-off, and by how much it has grown. Reads
+// every saved real field.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -54,12 +55,14 @@ Pairs particles_of_both(const State& a, const State& b) {
   return pairs;
 }
 
-void print_row(const NamedField<double>& field, const State& a, const NamedField<double>& other, const Pairs& pairs) {
+void print_row(const NamedField<double>& field, const State& a, const NamedField<double>& other,
+               const Pairs& pairs) {
   const auto id = on_host(a.fields.integer("id"));
   const auto first = on_host(field.data), second = on_host(other.data);
   Difference difference;
   for (const auto& [i, j] : pairs) difference.add(id(i), first(i), second(j));
-  std::printf("%-16s %-8s %12.5g %12.3g %12.3g", field.name.c_str(), field.unit.c_str(), difference.size, difference.largest,
+  std::printf("%-16s %-8s %12.5g %12.3g %12.3g", field.name.c_str(), field.unit.c_str(), difference.size,
+              difference.largest,
               std::sqrt(difference.squares / std::max<double>(1, static_cast<double>(pairs.size()))));
   if (difference.id >= 0) std::printf(" %8d", difference.id);
   std::printf("\n");
@@ -76,7 +79,8 @@ int difference_command(const Arguments& arguments, const Parts&) {
   const auto runtime = start_kokkos(1);
   const State a = read_state(arguments.words[0]), b = read_state(arguments.words[1]);
   const Pairs pairs = particles_of_both(a, b);
-  std::printf("t = %.9g s and %.9g s; particles %d and %d, %zu in both\n", a.t, b.t, a.fields.size(), b.fields.size(), pairs.size());
+  std::printf("t = %.9g s and %.9g s; particles %d and %d, %zu in both\n", a.t, b.t, a.fields.size(),
+              b.fields.size(), pairs.size());
   std::printf("%-16s %-8s %12s %12s %12s %8s\n", "field", "unit", "largest", "difference", "rms", "of id");
   for (const auto& field : a.fields.reals()) {
     if (const auto* other = b.fields.find_real(field.name)) print_row(field, a, *other, pairs);

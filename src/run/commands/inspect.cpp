@@ -7,12 +7,12 @@
 #include <memory>
 
 #include "src/errors.hpp"
+#include "src/io/build.hpp"
 #include "src/io/fluid.hpp"
 #include "src/io/h5part.hpp"
-#include "src/io/build.hpp"
 #include "src/run/commands/commands.hpp"
-#include "src/scene/toml/diagnostics.hpp"
 #include "src/scene/read.hpp"
+#include "src/scene/toml/diagnostics.hpp"
 #include "src/text.hpp"
 
 namespace freshet {
@@ -68,7 +68,8 @@ void print_rows(std::FILE* out, const ParticleStep& step) {
   for (std::size_t i = 0; i < step.size(); ++i) {
     comma = "\n";
     for (const ParticleColumn& column : step.columns) {
-      std::fprintf(out, column.name == "x" || column.name == "y" ? "%s%.12g" : "%s%.8g", comma, column.values[i]);
+      std::fprintf(out, column.name == "x" || column.name == "y" ? "%s%.12g" : "%s%.8g", comma,
+                   column.values[i]);
       comma = ",";
     }
   }
@@ -113,7 +114,8 @@ std::string find_scene(const std::string& path_or_case) {
 
 int check_command(const Arguments& arguments, const Parts& parts) {
   if (arguments.words.size() != 1) throw SceneError("usage: freshet check SCENE [key=value ...] [--keys]");
-  if (arguments.has("--keys")) return print_keys(known_keys(find_scene(arguments.words[0]), arguments.overrides));
+  if (arguments.has("--keys"))
+    return print_keys(known_keys(find_scene(arguments.words[0]), arguments.overrides));
   const Scene scene = parts.read(find_scene(arguments.words[0]), arguments.overrides);
   for (const auto& line : parts.describe(scene)) std::printf("%s\n", line.c_str());
   const auto runtime = start_kokkos(threads_asked(arguments, 0));
@@ -148,9 +150,11 @@ int points_command(const Arguments& arguments, const Parts&) {
 void print_version() {
   const auto runtime = start_kokkos(0);
   const std::string better = better_registers();
-  std::printf("freshet %s (%s)\nbackend   %s, %d threads\nregisters %s%s%s\nKokkos    %s\ncompiler  %s\nbuild     %s: %s\n",
-              build::version, build::git, backend_name(), thread_count(), registers_name(), better.empty() ? "" : "; ",
-              better.c_str(), build::kokkos, build::compiler, build::type, build::flags);
+  std::printf(
+      "freshet %s (%s)\nbackend   %s, %d threads\nregisters %s%s%s\nKokkos    %s\ncompiler  %s\nbuild     "
+      "%s: %s\n",
+      build::version, build::git, backend_name(), thread_count(), registers_name(),
+      better.empty() ? "" : "; ", better.c_str(), build::kokkos, build::compiler, build::type, build::flags);
 }
 
 }  // namespace freshet

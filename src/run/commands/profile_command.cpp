@@ -41,7 +41,8 @@ int profile_command(const Arguments& arguments, const Parts& parts) {
   const PassingDirectory directory;
   const RunProfile profile = profile_run(scene, *method, directory.path(), steps);
   if (profile.steps == 0)
-    throw SceneError(scene.name + " ends within its first steps, which are not counted\n  help: a later time.end");
+    throw SceneError(scene.name +
+                     " ends within its first steps, which are not counted\n  help: a later time.end");
   std::fputs((arguments.has("--json") ? json(profile) : table(profile)).c_str(), stdout);
   return 0;
 }

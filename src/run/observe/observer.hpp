@@ -1,5 +1,6 @@
-// What looks at a run from step to step. src/run/observers.cpp lists the kinds and makes those that the scene asks
-// for; what it does not ask for is not there. The loop knows one by name, the monitor: of the mass and the time step.
+// What looks at a run from step to step. src/run/observers.cpp lists the kinds and makes those that the scene
+// asks for; what it does not ask for is not there. The loop knows one by name, the monitor: of the mass and
+// the time step.
 //
 // A class has a constructor Class(const Scene&) or, where it writes, Class(const Scene&, const std::string&
 // directory), and its own of the two static functions below where they differ.

@@ -56,8 +56,8 @@ std::string table(const std::vector<ErrorsAt>& errors_at) {
   std::string lines = '\n' + row("time", {"depth l2", "(2.58)", "vx (2.59)", "vy (2.59)"}) + row("[s]", {});
   const auto s = [](double value) { return scientific(value, 3); };
   for (const auto& [t, e] : errors_at)
-    lines += row(brief(t, 4), {s(e.depth_l2_rel), s(e.depth_l2_mean_rel), s(e.velocity_l2_x),
-                               s(e.velocity_l2_y)});
+    lines +=
+        row(brief(t, 4), {s(e.depth_l2_rel), s(e.depth_l2_mean_rel), s(e.velocity_l2_x), s(e.velocity_l2_y)});
   return lines;
 }
 
@@ -80,8 +80,7 @@ std::vector<double> comparison_times(const Compare& compare, double end) {
 }
 
 ErrorRecorder::ErrorRecorder(const Scene& scene)
-    : Observer(take_times(scene)),
-      scene_(scene),
+    : Observer(take_times(scene)), scene_(scene),
       comparisons_(comparison_times(scene.compare, scene.end_time)) {}
 
 void ErrorRecorder::take(const Method& method, const Clock& clock) {

@@ -1,4 +1,5 @@
-// A computed gauge against the measured one, in the unit of what it shows. Computed values lie between two rows by linear interpolation.
+// A computed gauge against the measured one, in the unit of what it shows. Computed values lie between two
+// rows by linear interpolation.
 #pragma once
 #include <string>
 #include <utility>

@@ -20,13 +20,19 @@ Reading between(const Reading& a, const Reading& b, double w) {
 
 void write_json(JsonWriter& out, const GaugeResult& gauge, const Measurand& shown) {
   out.begin(gauge.name)
-      .value("shows", std::string(shown.name)).value("unit", std::string(shown.unit))
-      .value("rmse", gauge.rmse).value("rmse_window", gauge.rmse_window)
-      .value("window_start", gauge.window.first).value("window_end", gauge.window.second)
+      .value("shows", std::string(shown.name))
+      .value("unit", std::string(shown.unit))
+      .value("rmse", gauge.rmse)
+      .value("rmse_window", gauge.rmse_window)
+      .value("window_start", gauge.window.first)
+      .value("window_end", gauge.window.second)
       .value("max_abs_error", gauge.max_abs_error)
-      .value("peak", gauge.peak).value("peak_time", gauge.peak_time)
-      .value("measured_peak", gauge.measured_peak).value("measured_peak_time", gauge.measured_peak_time)
-      .value("arrival", gauge.arrival).value("measured_arrival", gauge.measured_arrival)
+      .value("peak", gauge.peak)
+      .value("peak_time", gauge.peak_time)
+      .value("measured_peak", gauge.measured_peak)
+      .value("measured_peak_time", gauge.measured_peak_time)
+      .value("arrival", gauge.arrival)
+      .value("measured_arrival", gauge.measured_arrival)
       .value("dry_fraction", gauge.dry)
       .end();
 }
@@ -42,26 +48,26 @@ std::string row(const GaugeResult& g, const Measurand& shown) {
 }
 
 // The gauges that show quantities of this unit; nothing where there are none.
-std::string table(const std::vector<Gauge>& gauges, const std::vector<GaugeResult>& results, const Measurand& shown) {
+std::string table(const std::vector<Gauge>& gauges, const std::vector<GaugeResult>& results,
+                  const Measurand& shown) {
   std::string rows;
   for (std::size_t g = 0; g < gauges.size(); ++g)
     if (gauges[g].measurand().unit == std::string(shown.unit)) rows += row(results[g], shown);
   if (rows.empty()) return "";
-  const std::string fine = formatted("[%s]", shown.fine.unit), peak = formatted("peak [%s]", shown.coarse.unit);
-  return formatted("\n%-12s %8s %8s %8s   %15s   %15s   %15s\n", "gauge", "rmse", "in wave", "max", peak.c_str(),
-                   "at [s]", "arrival [s]") +
-         formatted(columns, "", fine.c_str(), fine.c_str(), fine.c_str(), "run", "meas.", "run", "meas.", "run",
-                   "meas.") +
+  const std::string fine = formatted("[%s]", shown.fine.unit),
+                    peak = formatted("peak [%s]", shown.coarse.unit);
+  return formatted("\n%-12s %8s %8s %8s   %15s   %15s   %15s\n", "gauge", "rmse", "in wave", "max",
+                   peak.c_str(), "at [s]", "arrival [s]") +
+         formatted(columns, "", fine.c_str(), fine.c_str(), fine.c_str(), "run", "meas.", "run", "meas.",
+                   "run", "meas.") +
          rows;
 }
 
 }  // namespace
 
 GaugeRecorder::GaugeRecorder(const Scene& scene, const std::string& directory)
-    : gauges_(scene.gauges),
-      directory_(directory),
-      row_times_(regular_times(interval(scene), scene.end_time)),
-      file_(path_in(directory, "gauges.csv")) {}
+    : gauges_(scene.gauges), directory_(directory),
+      row_times_(regular_times(interval(scene), scene.end_time)), file_(path_in(directory, "gauges.csv")) {}
 
 void GaugeRecorder::begin(const Method& method) {
   file_.create(gauges_);

@@ -33,7 +33,7 @@ class GaugeRecorder : public Observer {
   Timetable row_times_;
   GaugeFile file_;
   std::vector<GaugeRow> rows_;
-  double watched_t_ = -1;            // s, time of watched_
+  double watched_t_ = -1;         // s, time of watched_
   std::vector<Reading> watched_;  // before the step
 };
 

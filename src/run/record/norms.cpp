@@ -88,7 +88,8 @@ CellGrid comparison_grid(const Scene& scene) {
   constexpr int cells_per_side = 200;
   std::array<double, 2> cell{1, 1};
   for (std::size_t axis = 0; axis < static_cast<std::size_t>(scene.domain.dimension); ++axis)
-    cell[axis] = scene.compare.grid_spacing.value_or((scene.domain.high[axis] - scene.domain.low[axis]) / cells_per_side);
+    cell[axis] = scene.compare.grid_spacing.value_or((scene.domain.high[axis] - scene.domain.low[axis]) /
+                                                     cells_per_side);
   return fitted_grid(scene.domain, cell);
 }
 

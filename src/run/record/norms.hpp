@@ -13,7 +13,8 @@ struct ErrorNorms {
   double depth_linf = unknown;         // m
   double velocity_l2 = unknown;        // m/s
   double depth_l2_mean_rel = unknown;  // thesis (2.58): rms of (d - d_e) / d_e
-  double velocity_l2_x = unknown, velocity_l2_y = unknown;  // thesis (2.59): rms of (v_k - v_k,e) / sqrt(g d_e)
+  double velocity_l2_x = unknown,
+         velocity_l2_y = unknown;  // thesis (2.59): rms of (v_k - v_k,e) / sqrt(g d_e)
 };
 
 // The two below together, over the particles inside scene.compare.where.
@@ -31,7 +32,8 @@ double median(std::vector<double> values);  // unknown for no values
 CellGrid comparison_grid(const Scene& scene);
 
 // Relative l2 error on the grid; cells that are dry in the exact solution count as zero depth.
-// (smeared_depth: the plain sum beyond the water's edge, where a Shepard mean would spread it, and normalised inside.)
+// (smeared_depth: the plain sum beyond the water's edge, where a Shepard mean would spread it, and normalised
+// inside.)
 double grid_l2(const Scene& scene, const Method& method, double t);
 
 }  // namespace freshet

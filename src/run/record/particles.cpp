@@ -9,8 +9,7 @@ namespace freshet {
 
 ParticleRecorder::ParticleRecorder(const Scene& scene, const std::string& directory)
     : Observer(regular_times(scene.output.every, scene.end_time)),
-      path_(path_in(directory, "particles.h5part")),
-      scene_text_(scene.text),
+      path_(path_in(directory, "particles.h5part")), scene_text_(scene.text),
       file_(path_, scene.output.fields, scene.fpm ? scene.water.spacing : 0) {}
 
 void ParticleRecorder::begin(const Method& method) {

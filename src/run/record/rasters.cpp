@@ -52,10 +52,8 @@ std::vector<double> map_times(const Rasters& wanted, double end) {
 }  // namespace
 
 RasterRecorder::RasterRecorder(const Scene& scene, const std::string& directory)
-    : Observer(map_times(*scene.rasters, scene.end_time)),
-      wanted_(*scene.rasters),
-      folder_(path_in(directory, "rasters")),
-      grid_(square_grid(scene.domain, wanted_.spacing)) {
+    : Observer(map_times(*scene.rasters, scene.end_time)), wanted_(*scene.rasters),
+      folder_(path_in(directory, "rasters")), grid_(square_grid(scene.domain, wanted_.spacing)) {
   if (!wanted_.maxima) return;
   maxima_.emplace(grid_.size(), wanted_.arrival);
   front_times_ = Timetable(regular_times(

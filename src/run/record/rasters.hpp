@@ -15,10 +15,10 @@ class RasterRecorder : public Observer {
   static std::vector<std::string> files() { return {"rasters"}; }
   RasterRecorder(const Scene& scene, const std::string& directory);
 
-  void begin(const Method& method) override;  // the folder, the maxima of the start
-  void after_step(const Method& method, const Clock& clock) override;    // maxima
-  void take(const Method& method, const Clock& clock) override;          // the maps of a raster time
-  void finish(const Method& method, const Clock& clock) override;        // the maxima so far
+  void begin(const Method& method) override;                           // the folder, the maxima of the start
+  void after_step(const Method& method, const Clock& clock) override;  // maxima
+  void take(const Method& method, const Clock& clock) override;        // the maps of a raster time
+  void finish(const Method& method, const Clock& clock) override;      // the maxima so far
   void save(Values& values) const override;
   void restore(const Values& values, const Clock& clock) override;
 
@@ -31,10 +31,10 @@ class RasterRecorder : public Observer {
   std::string folder_;
   CellGrid grid_;
   Timetable front_times_;
-  std::vector<double> written_;     // s, times of the maps
+  std::vector<double> written_;  // s, times of the maps
   std::optional<Maxima> maxima_;
-  std::vector<double> front_;       // rows of front.csv: t, area, x_low, x_high, y_low, y_high
-  std::vector<double> bed_;         // m, at the centres; made when a surface is first written
+  std::vector<double> front_;  // rows of front.csv: t, area, x_low, x_high, y_low, y_high
+  std::vector<double> bed_;    // m, at the centres; made when a surface is first written
 };
 
 }  // namespace freshet

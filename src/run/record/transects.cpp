@@ -14,8 +14,9 @@ struct LineSpan {
 };
 LineSpan span(const Transect& p) {
   const double length = std::hypot(p.line[1][0] - p.line[0][0], p.line[1][1] - p.line[0][1]);
-  return p.one_dimensional ? LineSpan{std::min(p.line[0][0], p.line[1][0]), std::max(p.line[0][0], p.line[1][0])}
-                           : LineSpan{0, length};
+  return p.one_dimensional
+             ? LineSpan{std::min(p.line[0][0], p.line[1][0]), std::max(p.line[0][0], p.line[1][0])}
+             : LineSpan{0, length};
 }
 
 // The places of the measured points that lie on the line.
@@ -69,9 +70,7 @@ void compare_with_measured(const Transect& transect, const std::vector<double>& 
 }  // namespace
 
 TransectRecorder::TransectRecorder(const Scene& scene, const std::string& directory)
-    : Observer(times_of(scene.profiles)),
-      transects_(scene.profiles),
-      taken_(scene.profiles.size()),
+    : Observer(times_of(scene.profiles)), transects_(scene.profiles), taken_(scene.profiles.size()),
       path_(path_in(directory, "profiles.csv")) {}
 
 void TransectRecorder::take(const Method& method, const Clock& clock) {
@@ -137,8 +136,11 @@ void TransectRecorder::report(const Method&, const Clock&, Report& report) const
       formatted("\n%-12s %8s %8s %8s %12s %7s\n", "profile", "at [s]", "rmse", "max", "range [mm]", "points");
   for (const TransectResult& r : results()) {
     out.begin(r.name)
-        .value("time", r.time).value("rmse", r.rmse).value("max_abs_error", r.max_abs_error)
-        .value("measured_range", r.measured_range).value("points", r.points)
+        .value("time", r.time)
+        .value("rmse", r.rmse)
+        .value("max_abs_error", r.max_abs_error)
+        .value("measured_range", r.measured_range)
+        .value("points", r.points)
         .end();
     const auto mm = [](double m) { return decimal(m, 1e-3, 2); };
     report.tables +=

@@ -1,5 +1,6 @@
-// Seconds and calls of every launch and region, by label, through Kokkos' tool callbacks: in this process, without a tool library.
-// They are recorded while the object lives; one at a time in a process (std::logic_error otherwise).
+// Seconds and calls of every launch and region, by label, through Kokkos' tool callbacks: in this process,
+// without a tool library. They are recorded while the object lives; one at a time in a process
+// (std::logic_error otherwise).
 #pragma once
 #include <chrono>
 #include <cstdint>
@@ -26,9 +27,9 @@ class LaunchTimes {
   const Spans& launches() const { return launches_; }  // a launch inside another counts as part of that one
   const Spans& regions() const { return regions_; }    // with everything inside, other regions too
 
-  double launched() const;                                // s, of all launches
-  double launched_in(const std::string& region) const;    // s, of the launches inside a region
-  double in(const std::string& region) const;             // s
+  double launched() const;                              // s, of all launches
+  double launched_in(const std::string& region) const;  // s, of the launches inside a region
+  double in(const std::string& region) const;           // s
 
  private:
   using Time = std::chrono::steady_clock;

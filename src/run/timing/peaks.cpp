@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "cellgrid/simd/lanes.hpp"
 #include "cellgrid/parallel/launch.hpp"
+#include "cellgrid/simd/lanes.hpp"
 #include "src/run/timing/fastest.hpp"
 
 namespace freshet {
@@ -17,7 +17,8 @@ using Register = pack<double, register_bytes / static_cast<int>(sizeof(double))>
 constexpr bool many_registers = register_bytes == 64;
 #endif
 constexpr int width = sizeof(Register) / sizeof(double);
-// Independent chains: enough to hide the latency of two units, few enough for the registers (AVX-512 has 32, AVX2 and SSE 16).
+// Independent chains: enough to hide the latency of two units, few enough for the registers (AVX-512 has 32,
+// AVX2 and SSE 16).
 constexpr int chains = many_registers ? 16 : 12;
 
 struct MultiplyAdd {
@@ -55,8 +56,9 @@ double measure_bytes() {
 double multiply_add_rate(int tasks) {
   constexpr int steps = 400000;
   const Field<double> out("peaks.out", static_cast<std::size_t>(tasks));
-  const double seconds =
-      fastest(6, [&] { launch("peaks::multiply_add", Range(0, tasks), MultiplyAdd{steps, out}); });
+  const double seconds = fastest(6, [&] {
+    launch("peaks::multiply_add", Range(0, tasks), MultiplyAdd{steps, out});
+  });
   return 2.0 * chains * width * static_cast<double>(steps) * tasks / seconds;
 }
 

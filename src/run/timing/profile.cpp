@@ -13,9 +13,12 @@ constexpr long warm_up = 20;  // steps: fields have grown, the first lists are m
 
 using Works = std::map<std::string, Work>;
 
-Work scaled(const Work& w, double s) { return {s * w.particles, s * w.pairs, s * w.listed, s * w.flops, s * w.bytes}; }
+Work scaled(const Work& w, double s) {
+  return {s * w.particles, s * w.pairs, s * w.listed, s * w.flops, s * w.bytes};
+}
 Work sum(const Work& a, const Work& b) {
-  return {a.particles + b.particles, a.pairs + b.pairs, a.listed + b.listed, a.flops + b.flops, a.bytes + b.bytes};
+  return {a.particles + b.particles, a.pairs + b.pairs, a.listed + b.listed, a.flops + b.flops,
+          a.bytes + b.bytes};
 }
 
 Works mean(const Works& a, const Works& b) {
@@ -39,7 +42,8 @@ std::vector<PassProfile> passes_of(const LaunchTimes::Spans& launches, const Wor
 // Watches a run step by step; everything between first and last step is counted.
 class Watch {
  public:
-  Watch(const Method& method, long steps, std::atomic<bool>& stop) : method_(method), steps_(steps), stop_(stop) {}
+  Watch(const Method& method, long steps, std::atomic<bool>& stop)
+      : method_(method), steps_(steps), stop_(stop) {}
 
   void operator()(const Clock& clock) {
     if (!begun_ && clock.step >= warm_up) return begin(clock);

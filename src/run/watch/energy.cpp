@@ -57,12 +57,16 @@ void EnergyWatch::restore(const Values& values, const Clock&) {
 void EnergyWatch::report(const Method& method, const Clock&, Report& report) const {
   const Mechanics end = method.mechanics();
   report.object("energy")
-      .value("kinetic_start_m5_s2", start_.kinetic).value("potential_start_m5_s2", start_.potential)
-      .value("kinetic_end_m5_s2", end.kinetic).value("potential_end_m5_s2", end.potential)
+      .value("kinetic_start_m5_s2", start_.kinetic)
+      .value("potential_start_m5_s2", start_.potential)
+      .value("kinetic_end_m5_s2", end.kinetic)
+      .value("potential_end_m5_s2", end.potential)
       .end();
   report.object("momentum")
-      .value("x_start_m4_s", start_.momentum[0]).value("y_start_m4_s", start_.momentum[1])
-      .value("x_end_m4_s", end.momentum[0]).value("y_end_m4_s", end.momentum[1])
+      .value("x_start_m4_s", start_.momentum[0])
+      .value("y_start_m4_s", start_.momentum[1])
+      .value("x_end_m4_s", end.momentum[0])
+      .value("y_end_m4_s", end.momentum[1])
       .end();
   for (const auto& line : warnings()) report.warnings.push_back(line);
 }

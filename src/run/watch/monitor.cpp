@@ -14,7 +14,8 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double margin_in_h =
     4;  // a few smoothing lengths: walls act within 2 h, so a particle beyond is lost
-constexpr double buffer_in_dx = 6;   // depth of an open boundary's buffer outside the domain, or where particles are longer
+constexpr double buffer_in_dx =
+    6;  // depth of an open boundary's buffer outside the domain, or where particles are longer
 constexpr double buffer_in_h = 2.5;  // than the first, in their h
 
 Allowed allowed_in(const Scene& scene) {
@@ -177,10 +178,8 @@ double mass_error(double initial, const Totals& totals) {
 }
 
 Monitor::Monitor(const Scene& scene)
-    : Observer(regular_times(scene.output.every, scene.end_time)),
-      allowed_(allowed_in(scene)),
-      mass_limit_(scene.limits.mass_error),
-      open_(!scene.boundaries.empty()) {}
+    : Observer(regular_times(scene.output.every, scene.end_time)), allowed_(allowed_in(scene)),
+      mass_limit_(scene.limits.mass_error), open_(!scene.boundaries.empty()) {}
 
 void Monitor::begin(const Method& method) {
   initial_mass_ = method.totals().mass;

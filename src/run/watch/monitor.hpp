@@ -16,7 +16,7 @@ struct Allowed {
 struct MassBalance {
   double initial = unknown, inflow = 0, outflow = 0, final = unknown;  // m3
   double relative_error = unknown;  // |final - initial - inflow + outflow| / initial (initial = 0: / inflow)
-  double flux_error = unknown;  // |inflow - outflow - straddle - flux| / gross flux, at open boundaries
+  double flux_error = unknown;      // |inflow - outflow - straddle - flux| / gross flux, at open boundaries
 };
 double mass_error(double initial, const Totals& totals);  // the relative error
 
@@ -46,8 +46,8 @@ class Monitor : public Observer {
   void look(const Method& method, const Clock& clock);  // check_all() once a step
 
   Allowed allowed_;
-  double mass_limit_;  // relative
-  bool open_;          // open boundaries
+  double mass_limit_;        // relative
+  bool open_;                // open boundaries
   double initial_mass_ = 0;  // m3
   int initial_particles_ = 0;
   long looked_at_ = -1;  // step

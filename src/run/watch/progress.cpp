@@ -50,9 +50,8 @@ void Progress::show(const Clock& clock, int particles, double mass_error) {
   std::snprintf(line, sizeof line,
                 "%5.1f %%  %s left  t %.6g s  dt %.3g s  step %ld  %d particles  mass error %.0e  "
                 "%.2f M particle-steps/s",
-                percent(clock.t, end_), duration(left).c_str(), clock.t, clock.dt,
-                clock.step, particles, mass_error,
-                particle_steps_ / std::max(last_, 1e-9) / 1e6);
+                percent(clock.t, end_), duration(left).c_str(), clock.t, clock.dt, clock.step, particles,
+                mass_error, particle_steps_ / std::max(last_, 1e-9) / 1e6);
   // A line that wraps could not be rewritten in place.
   if (terminal_) std::fprintf(out_, "\r%.*s\033[K", columns(out_) - 1, line);
   else std::fprintf(out_, "%s\n", line);

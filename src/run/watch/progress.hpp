@@ -14,8 +14,8 @@ class Progress {
   // out = nullptr prints nothing. start: the simulated time at which this process begins or goes on [s].
   Progress(std::FILE* out, bool terminal, double start, double end);
 
-  void count(int particles) { particle_steps_ += particles; }  // once per step
-  bool due(double t) const;                                    // asks the clock; cheap
+  void count(int particles) { particle_steps_ += particles; }       // once per step
+  bool due(double t) const;                                         // asks the clock; cheap
   void show(const Clock& clock, int particles, double mass_error);  // relative
   void end_line();  // leaves the line on the terminal as it is
 

@@ -27,7 +27,8 @@ double largest_speed(const FieldSet& fields) {
 
 void SteadinessWatch::begin(const Method& method) {
   const FieldSet& fields = method.fields();
-  for (const double depth : gather(fields.find_real("depth"), fluid_indices(fields))) deepest_ = std::max(deepest_, depth);
+  for (const double depth : gather(fields.find_real("depth"), fluid_indices(fields)))
+    deepest_ = std::max(deepest_, depth);
 }
 
 void SteadinessWatch::after_step(const Method& method, const Clock&) {
@@ -64,8 +65,10 @@ void SteadinessWatch::restore(const Values& values, const Clock&) {
 void SteadinessWatch::report(const Method& method, const Clock& clock, Report& report) const {
   const Steadiness s = result(method, clock);
   report.object("steady")
-      .value("max_speed_rel", s.max_speed_rel).value("end_speed_rel", s.end_speed_rel)
-      .value("rate", s.rate).value("thesis_ls", s.thesis_ls)
+      .value("max_speed_rel", s.max_speed_rel)
+      .value("end_speed_rel", s.end_speed_rel)
+      .value("rate", s.rate)
+      .value("thesis_ls", s.thesis_ls)
       .end();
   report.tables += "largest speed " + scientific(s.max_speed_rel, 3) + " of sqrt(g d_max), at the end " +
                    scientific(s.end_speed_rel, 3) + "; depths change by " + scientific(s.rate, 2) +

@@ -9,7 +9,9 @@ namespace freshet::input {
 
 std::optional<Registration> read_registration(Table& section);
 
-// Reads the grid's text; an xllcorner header without `registration` is reported at the key `file`. Throws BadData.
-Raster load_grid(Table& section, const std::string& path, const std::string& text, std::optional<Registration> registration);
+// Reads the grid's text; an xllcorner header without `registration` is reported at the key `file`. Throws
+// BadData.
+Raster load_grid(Table& section, const std::string& path, const std::string& text,
+                 std::optional<Registration> registration);
 
 }  // namespace freshet::input

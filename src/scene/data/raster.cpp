@@ -6,8 +6,8 @@
 #include <limits>
 #include <map>
 
-#include "src/scene/toml/diagnostics.hpp"
 #include "src/scene/data/files.hpp"
+#include "src/scene/toml/diagnostics.hpp"
 
 namespace freshet::input {
 namespace {

@@ -67,8 +67,8 @@ std::size_t index_of(const SeriesColumn& column, const Sheet& sheet, const std::
   const auto found = std::find(sheet.header.begin(), sheet.header.end(), column.name);
   if (found != sheet.header.end()) return found - sheet.header.begin();
   std::string help = sheet.header.empty()
-                       ? "the file has no header line: give the column's number, counted from 1"
-                       : did_you_mean(column.name, sheet.header);
+                         ? "the file has no header line: give the column's number, counted from 1"
+                         : did_you_mean(column.name, sheet.header);
   if (help.empty()) help = "its columns are " + listed(sheet.header);
   throw NoSuchColumn{is_time, "'" + shown + "' has no column '" + column.name + "'", help};
 }
@@ -118,7 +118,8 @@ Series sorted(const Series& series, const std::string& path, std::vector<std::st
   const std::size_t repeated = series.t.size() - out.t.size();
   if (!was_sorted) notes.push_back(file_name(path) + ": rows sorted");
   if (repeated > 0) {
-    notes.push_back(file_name(path) + ": " + counted(repeated, "row") + " with a repeated time or place left out");
+    notes.push_back(file_name(path) + ": " + counted(repeated, "row") +
+                    " with a repeated time or place left out");
   }
   return out;
 }
@@ -126,10 +127,12 @@ Series sorted(const Series& series, const std::string& path, std::vector<std::st
 Value<SeriesColumn> column(Table& table, const std::string& key, SeriesColumn fallback) {
   if (table.has_text(key)) {
     const std::string name = table.text(key).required();
-    return {Slot{&table.context(), table.path_of(key), table.place_of(key), true, nullptr}, SeriesColumn{0, name}};
+    return {Slot{&table.context(), table.path_of(key), table.place_of(key), true, nullptr},
+            SeriesColumn{0, name}};
   }
   const int number = table.integer(key).at_least(1).otherwise(fallback.number);
-  return {Slot{&table.context(), table.path_of(key), table.place_of(key), true, nullptr}, SeriesColumn{number, ""}};
+  return {Slot{&table.context(), table.path_of(key), table.place_of(key), true, nullptr},
+          SeriesColumn{number, ""}};
 }
 
 }  // namespace
@@ -188,9 +191,7 @@ Series read_series(Table& table, SeriesUse use, const std::string& abscissa) {
     return use == SeriesUse::forcing ? read_forcing(file) : read_measured(file, table.context().notes);
   } catch (const BadData& bad) {
     path.fail(bad.what(), bad.help, Blame::data);
-  } catch (const NoSuchColumn& none) {
-    (none.is_time ? t : value).fail(none.message, none.help);
-  }
+  } catch (const NoSuchColumn& none) { (none.is_time ? t : value).fail(none.message, none.help); }
   return {};
 }
 

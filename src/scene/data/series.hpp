@@ -35,8 +35,8 @@ Series read_forcing(const SeriesFile& file);
 // a note.
 Series read_measured(const SeriesFile& file, std::vector<std::string>& notes);
 
-// The section `{ file, t, value, t_scale, t_offset, scale, offset }`; empty series after an error, which is reported. A series
-// over a place has `x` for `t`.
+// The section `{ file, t, value, t_scale, t_offset, scale, offset }`; empty series after an error, which is
+// reported. A series over a place has `x` for `t`.
 enum class SeriesUse { forcing, measured };
 Series read_series(Table& table, SeriesUse use, const std::string& abscissa = "t");
 

@@ -41,11 +41,13 @@ CutCell cut_cell(const WaterRegion& water, const Point& centre, double width, do
   constexpr int fine = 10;  // sub-cells along a side
   int agree = water.holds(centre) ? 1 : 0;
   for (const double sx : {-0.5, 0.5})
-    for (const double sy : {-0.5, 0.5}) agree += water.holds({centre[0] + sx * width, centre[1] + sy * height}) ? 1 : 0;
+    for (const double sy : {-0.5, 0.5})
+      agree += water.holds({centre[0] + sx * width, centre[1] + sy * height}) ? 1 : 0;
   if (agree == 0 || agree == 5) return {agree / 5.0, centre};
   double count = 0, x = 0, y = 0;
   for (int k = 0; k < fine * fine; ++k) {
-    const Point p{centre[0] + ((k % fine + 0.5) / fine - 0.5) * width, centre[1] + ((k / fine + 0.5) / fine - 0.5) * height};
+    const Point p{centre[0] + ((k % fine + 0.5) / fine - 0.5) * width,
+                  centre[1] + ((k / fine + 0.5) / fine - 0.5) * height};
     if (!water.holds(p)) continue;
     ++count, x += p[0], y += p[1];
   }
@@ -55,29 +57,38 @@ CutCell cut_cell(const WaterRegion& water, const Point& centre, double width, do
 // As many particles as the machine's memory holds, and not more than whole numbers count.
 double most_particles() {
   constexpr double bytes = 400;  // of a particle's fields and lists (tests/property/cost/memory.cpp)
-  const double memory = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+  const double memory =
+      static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
   return std::min(1e9, memory / bytes);
 }
 
 [[noreturn]] void refuse_more_than(double most, double cells, const Scene& scene) {
   const double coarser = scene.water.spacing * std::pow(cells / most, 1.0 / scene.domain.dimension);
   char text[200];
-  std::snprintf(text, sizeof text, "water: more than %.3g particles, which this machine's memory does not hold (400 bytes each)\n"
-                "  help: a larger water.spacing than %.6g m; %.3g m if all of the domain is wet", most, scene.water.spacing, coarser);
+  std::snprintf(
+      text, sizeof text,
+      "water: more than %.3g particles, which this machine's memory does not hold (400 bytes each)\n"
+      "  help: a larger water.spacing than %.6g m; %.3g m if all of the domain is wet",
+      most, scene.water.spacing, coarser);
   throw SceneError(text);
 }
 
 std::vector<Placed> place_cells(const Scene& scene, const Function& depth) {
-  constexpr double least_part = 0.25;  // of a cell: the water of smaller slivers along slanting walls is left out
+  constexpr double least_part =
+      0.25;  // of a cell: the water of smaller slivers along slanting walls is left out
   const WaterRegion water(scene.walls);
   std::vector<Placed> particles;
   const bool plane = scene.domain.dimension == 2;
-  const EvenCells along_x = cells_along(scene, 0), along_y = plane ? cells_along(scene, 1) : EvenCells{1, -0.5, 1};
+  const EvenCells along_x = cells_along(scene, 0),
+                  along_y = plane ? cells_along(scene, 1) : EvenCells{1, -0.5, 1};
   const double area = along_x.width * along_y.width, disorder = scene.water.disorder;
   const double cells = static_cast<double>(along_x.n) * along_y.n, most = most_particles();
   if (cells > 2e9) refuse_more_than(most, cells, scene);
   const auto moved = [&](const Point& middle, int cell) {
-    const auto off = [&](int k) { return disorder * random_offset(scene.water.seed, 2 * static_cast<std::uint64_t>(cell) + static_cast<std::uint64_t>(k)); };
+    const auto off = [&](int k) {
+      return disorder * random_offset(scene.water.seed,
+                                      2 * static_cast<std::uint64_t>(cell) + static_cast<std::uint64_t>(k));
+    };
     const Point to{middle[0] + along_x.width * off(0), middle[1] + (plane ? along_y.width * off(1) : 0.0)};
     return disorder > 0 && water.holds(to) ? to : middle;
   };
@@ -95,8 +106,8 @@ std::vector<Placed> place_cells(const Scene& scene, const Function& depth) {
   return particles;
 }
 
-// Equal masses m = d_max dx: each particle sits where half of its own mass lies behind it. The cumulative depth is summed on
-// a fine raster whose cells divide the spacing, so that a dam between cells stays sharp.
+// Equal masses m = d_max dx: each particle sits where half of its own mass lies behind it. The cumulative
+// depth is summed on a fine raster whose cells divide the spacing, so that a dam between cells stays sharp.
 std::vector<Placed> place_equal_mass(const Scene& scene, const Function& depth) {
   constexpr int fine = 64;
   EvenCells raster = cells_along(scene, 0);
@@ -119,7 +130,8 @@ std::vector<Placed> place_equal_mass(const Scene& scene, const Function& depth) 
   return particles;
 }
 
-// A surface less a bed leaves rounding where it is dry: masses so far apart (1e-15) end in NaN sooner or later.
+// A surface less a bed leaves rounding where it is dry: masses so far apart (1e-15) end in NaN sooner or
+// later.
 void drop_rounding(std::vector<Placed>& particles) {
   constexpr double rounding = 1e-9;  // of the deepest water
   double deepest = 0;
@@ -149,10 +161,12 @@ void require_finite(double depth, const Point& x) {
 }
 
 std::vector<Placed> place(const Scene& scene, const Function& depth) {
-  auto particles = scene.water.start == Water::Start::equal_mass ? place_equal_mass(scene, depth) : place_cells(scene, depth);
+  auto particles = scene.water.start == Water::Start::equal_mass ? place_equal_mass(scene, depth)
+                                                                 : place_cells(scene, depth);
   drop_rounding(particles);
-  if (particles.empty() && scene.boundaries.empty()) throw SceneError("water: no particle is wet; the depth is nowhere above " +
-                                          std::to_string(scene.water.wet_above) + " m: check [water] and [bed]");
+  if (particles.empty() && scene.boundaries.empty())
+    throw SceneError("water: no particle is wet; the depth is nowhere above " +
+                     std::to_string(scene.water.wet_above) + " m: check [water] and [bed]");
   return particles;
 }
 
@@ -161,7 +175,8 @@ Box sorted_box(const Scene& scene) {
   const bool spreads = scene.method == "sisph" && scene.sisph.moving && scene.walls.empty();
   const auto beyond = [&](std::size_t axis) {
     if (scene.fpm && scene.fpm->periodic[axis]) return 0.0;
-    return 32 * scene.water.spacing + (spreads ? 8 * (scene.domain.high[axis] - scene.domain.low[axis]) : 0.0);
+    return 32 * scene.water.spacing +
+           (spreads ? 8 * (scene.domain.high[axis] - scene.domain.low[axis]) : 0.0);
   };
   const Point &low = scene.domain.low, &high = scene.domain.high;
   return {low[0] - beyond(0), high[0] + beyond(0), low[1] - beyond(1), high[1] + beyond(1)};

@@ -7,7 +7,8 @@
 
 namespace freshet {
 
-// The side of every closed wall on which the water is (left of its direction). Without closed walls: everywhere.
+// The side of every closed wall on which the water is (left of its direction). Without closed walls:
+// everywhere.
 class WaterRegion {
  public:
   explicit WaterRegion(const std::vector<Wall>& walls);

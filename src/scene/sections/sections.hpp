@@ -14,7 +14,7 @@ void read_domain(Table& section, Scene& scene);         // [domain] box
 // [sph]. The default of `acceleration` depends on [compare]: false where the scene does not name it.
 bool read_sph(Table& section, Scene& scene);
 
-void read_sisph(Table& section, Scene& scene);  // [sisph]
+void read_sisph(Table& section, Scene& scene);               // [sisph]
 void check_formulation(Table& section, const Scene& scene);  // of [sisph], once all else is read
 
 // [bed]. Needs the domain, water.spacing and sph.eta.
@@ -38,14 +38,14 @@ void read_water_state(Table& section, Scene& scene);
 
 void read_time(Table& section, const ComparePlan& compare, Scene& scene);  // [time] end, cfl
 void read_boundary(Table& section, Scene& scene);                          // one [[boundary]]; needs time.end
-void read_wall(Table& section, Scene& scene);    // one [[wall]]; needs the boundaries
+void read_wall(Table& section, Scene& scene);      // one [[wall]]; needs the boundaries
 void note_leaks(Table& root, const Scene& scene);  // open ends of walls; after all walls
-void read_gauge(Table& section, Scene& scene);   // one [[gauge]]
-void read_run_up(Table& section, Scene& scene);  // one [[runup]]
+void read_gauge(Table& section, Scene& scene);     // one [[gauge]]
+void read_run_up(Table& section, Scene& scene);    // one [[runup]]
 void read_transect(Table& section, Scene& scene);  // one [[profile]]; needs time.end and water.spacing
-void read_output(Table& section, Scene& scene);  // [output]
-void read_rasters(Table& section, Scene& scene);  // [raster]; needs output.every
-void read_limits(Table& section, Scene& scene);  // [limits]
+void read_output(Table& section, Scene& scene);    // [output]
+void read_rasters(Table& section, Scene& scene);   // [raster]; needs output.every
+void read_limits(Table& section, Scene& scene);    // [limits]
 
 // Method "fpm". [fluid] comes first; read_periodic (domain.periodic) needs [water] and [fpm].
 void read_fluid(Table& section, Scene& scene);

@@ -15,7 +15,8 @@ double smooth_step(double s) {  // 0 ... 1 with level ends
 
 // A number of [0, 1) that depends on the seed and two whole numbers alone (splitmix64).
 double hashed(int seed, long i, long j) {
-  std::uint64_t z = static_cast<std::uint64_t>(seed) * 0x9e3779b97f4a7c15u + static_cast<std::uint64_t>(i) * 0xbf58476d1ce4e5b9u +
+  std::uint64_t z = static_cast<std::uint64_t>(seed) * 0x9e3779b97f4a7c15u +
+                    static_cast<std::uint64_t>(i) * 0xbf58476d1ce4e5b9u +
                     static_cast<std::uint64_t>(j) * 0x94d049bb133111ebu + 0x632be59bd9b4e019u;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
   z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
@@ -46,14 +47,17 @@ double low_areas(const Floodplain& p, double x, double y) {
   double depth = 0;
   for (int k = 0; k < 8; ++k) {
     const auto random = [&](int n) { return hashed(p.seed + 1000, k, n); };
-    const double cx = between(p.low[0], p.high[0], 0.1 + 0.8 * (k + random(0)) / 8), cy = between(p.low[1], p.high[1], between(0.2, 0.8, random(1)));
-    const double radius = between(250, 600, random(2)), r2 = ((x - cx) * (x - cx) + (y - cy) * (y - cy)) / (radius * radius);
+    const double cx = between(p.low[0], p.high[0], 0.1 + 0.8 * (k + random(0)) / 8),
+                 cy = between(p.low[1], p.high[1], between(0.2, 0.8, random(1)));
+    const double radius = between(250, 600, random(2)),
+                 r2 = ((x - cx) * (x - cx) + (y - cy) * (y - cy)) / (radius * radius);
     depth = std::max(depth, between(1, 2, random(3)) * std::exp(-r2));
   }
   return depth;
 }
 
-// 2.5 m above the plain, its crest 30 m wide with flanks of 40 m, from the lower left to the middle; an underpass 60 m wide.
+// 2.5 m above the plain, its crest 30 m wide with flanks of 40 m, from the lower left to the middle; an
+// underpass 60 m wide.
 double embankment(const Floodplain& p, double x, double y) {
   constexpr double height = 2.5, crest = 15, flank = 40, pass = 30;  // m, half widths
   const Point a{between(p.low[0], p.high[0], 0.08), between(p.low[1], p.high[1], 0.12)};
@@ -69,7 +73,8 @@ double embankment(const Floodplain& p, double x, double y) {
 
 Function floodplain(const Floodplain& plain) {
   return [plain](double x, double y) {
-    const double uneven = 0.4 * unevenness(plain.seed, 900, x, y) + 0.2 * unevenness(plain.seed + 1, 300, x, y) +
+    const double uneven = 0.4 * unevenness(plain.seed, 900, x, y) +
+                          0.2 * unevenness(plain.seed + 1, 300, x, y) +
                           0.05 * unevenness(plain.seed + 2, 80, x, y);
     return 2 + uneven - low_areas(plain, x, y) + std::max(rim(plain, x, y), embankment(plain, x, y));
   };

@@ -1,6 +1,6 @@
-// A synthetic flood plain, the same for the same seed on every machine: rising ground all round but for a breach in the middle
-// of its upper (northern) side, a plain with three wavelengths of unevenness, low areas, and a railway embankment from the lower
-// left towards the middle.
+// A synthetic flood plain, the same for the same seed on every machine: rising ground all round but for a
+// breach in the middle of its upper (northern) side, a plain with three wavelengths of unevenness, low areas,
+// and a railway embankment from the lower left towards the middle.
 #pragma once
 #include "src/scene/scene.hpp"
 

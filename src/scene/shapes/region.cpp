@@ -20,8 +20,7 @@ std::vector<Point> box_corners(Table& region, int dimension) {
 std::vector<Point> polygon_corners(Table& region, int dimension) {
   Value<std::vector<Point>> polygon = region.points("polygon");
   const std::vector<Point> corners = polygon.otherwise({});
-  if (dimension == 1)
-    region.error("polygon", "a 1-D scene has no polygons", "write box = [x0, x1]");
+  if (dimension == 1) region.error("polygon", "a 1-D scene has no polygons", "write box = [x0, x1]");
   else if (polygon.optional() && corners.size() < 3)
     region.error("polygon", "'" + region.path_of("polygon") + "' must have three points at least");
   return corners;

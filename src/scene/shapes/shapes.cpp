@@ -61,11 +61,11 @@ Function slope(Table& shape, int dimension) {
 Function plain(Table& shape, int dimension) {
   Floodplain plain;
   plain.seed = shape.integer("seed").at_least(0).otherwise(plain.seed);
-  const std::vector<double> box = shape.numbers("box", "numbers in m: x0, y0, x1, y1").otherwise({0, 0, 9000, 4000});
+  const std::vector<double> box =
+      shape.numbers("box", "numbers in m: x0, y0, x1, y1").otherwise({0, 0, 9000, 4000});
   if (dimension == 1 || box.size() != 4 || !(box[0] < box[2] && box[1] < box[3]))
     shape.error("box", "a flood plain has a box [x0, y0, x1, y1] in a 2-D scene, its low corner first");
-  else
-    plain.low = {box[0], box[1]}, plain.high = {box[2], box[3]};
+  else plain.low = {box[0], box[1]}, plain.high = {box[2], box[3]};
   return floodplain(plain);
 }
 
@@ -84,16 +84,14 @@ ChannelFlow read_channel_flow(Table& table) {
 
 Function read_shape(Table& shape, int dimension, std::string& description) {
   using Reader = Function (*)(Table&, int);
-  const Reader reader =
-      shape
-          .choice<Reader>("type",
-                          {{"hump", hump},
-                           {"step", step},
-                           {"paraboloid", paraboloid},
-                           {"slope", slope},
-                           {"floodplain", plain},
-                           {"macdonald", macdonald_channel}})
-          .required();
+  const Reader reader = shape
+                            .choice<Reader>("type", {{"hump", hump},
+                                                     {"step", step},
+                                                     {"paraboloid", paraboloid},
+                                                     {"slope", slope},
+                                                     {"floodplain", plain},
+                                                     {"macdonald", macdonald_channel}})
+                            .required();
   if (!reader) {
     shape.accept_rest();  // without its type nobody knows which keys belong to it
     return {};

@@ -22,13 +22,15 @@ double steepest_slope(const Scene& scene) {
   if (!bed) return 0;
   const double lattice = scene.bed.spacing > 0 ? scene.bed.spacing : scene.water.spacing;
   const double width = 2 * std::max(lattice, 1.25 * scene.bed.filter);
-  const Windows x{scene.domain.low[0], scene.domain.high[0], width}, y{scene.domain.low[1], scene.domain.high[1], width};
+  const Windows x{scene.domain.low[0], scene.domain.high[0], width},
+      y{scene.domain.low[1], scene.domain.high[1], width};
   const bool plane = scene.domain.dimension == 2;
   double steepest = 0;
   for (int j = 0; j < (plane ? y.count() : 1); ++j)
     for (int i = 0; i < x.count(); ++i) {
       const double x0 = x.middle(i), y0 = plane ? y.middle(j) : 0;
-      const double along_x = bed(x.end(i), y0) - bed(x.begin(i), y0), along_y = plane ? bed(x0, y.end(j)) - bed(x0, y.begin(j)) : 0;
+      const double along_x = bed(x.end(i), y0) - bed(x.begin(i), y0),
+                   along_y = plane ? bed(x0, y.end(j)) - bed(x0, y.begin(j)) : 0;
       steepest = std::max(steepest, std::hypot(along_x, along_y) / width);
     }
   return steepest;

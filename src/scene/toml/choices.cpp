@@ -2,7 +2,8 @@
 
 namespace freshet::input {
 
-void KeyReader::pair(const std::string& key, const std::array<std::string, 2>& names, double& first, double& second) {
+void KeyReader::pair(const std::string& key, const std::array<std::string, 2>& names, double& first,
+                     double& second) {
   const std::string both = '[' + names[0] + ", " + names[1] + ']';
   Value<std::vector<double>> given = table_.numbers(key, "two numbers: " + both);
   if (!given.optional()) return;
@@ -16,7 +17,8 @@ void KeyText::factor(const std::string&, double& value) {
   if (value != 1) text += " x " + shown(value);
 }
 
-void KeyText::pair(const std::string&, const std::array<std::string, 2>& names, double& first, double& second) {
+void KeyText::pair(const std::string&, const std::array<std::string, 2>& names, double& first,
+                   double& second) {
   text += ' ' + names[0] + " = " + shown(first) + ", " + names[1] + " = " + shown(second);
 }
 

@@ -1,4 +1,5 @@
-// How a scene's choices (kernels/choice.hpp) are read and read back: their names, and the keys that each has of its own.
+// How a scene's choices (kernels/choice.hpp) are read and read back: their names, and the keys that each has
+// of its own.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -14,7 +15,8 @@ template <class Choice>
 std::vector<std::pair<std::string, Choice>> named(const std::vector<Choice>& choices) {
   std::vector<std::pair<std::string, Choice>> all;
   for (const Choice& choice : choices)
-    if (std::none_of(all.begin(), all.end(), [&](const auto& known) { return known.first == name_of(choice); }))
+    if (std::none_of(all.begin(), all.end(),
+                     [&](const auto& known) { return known.first == name_of(choice); }))
       all.emplace_back(name_of(choice), choice);
   return all;
 }
@@ -28,7 +30,9 @@ std::vector<std::pair<std::string, Choice>> named() {
 class KeyReader {
  public:
   explicit KeyReader(Table& table) : table_(table) {}
-  void factor(const std::string& key, double& value) { value = table_.number(key).at_least(0).otherwise(value); }
+  void factor(const std::string& key, double& value) {
+    value = table_.number(key).at_least(0).otherwise(value);
+  }
   void pair(const std::string& key, const std::array<std::string, 2>& names, double& first, double& second);
 
  private:
@@ -39,7 +43,9 @@ class KeyReader {
 struct KeyNames {
   std::vector<std::string> names;
   void factor(const std::string& key, double&) { names.push_back(key); }
-  void pair(const std::string& key, const std::array<std::string, 2>&, double&, double&) { names.push_back(key); }
+  void pair(const std::string& key, const std::array<std::string, 2>&, double&, double&) {
+    names.push_back(key);
+  }
   void word(const std::string& key, const std::array<std::string, 2>&, bool&) { names.push_back(key); }
   void level() { names.insert(names.end(), {"level", "series"}); }
   void in_time(const std::string& key, const std::string&) { names.push_back(key); }
@@ -49,8 +55,8 @@ struct KeyNames {
   void if_given(const std::string& key, const std::string&, bool&) { names.push_back(key); }
 };
 
-// A choice's keys as text, as it follows the title: " a = 1, b = 0", " x 0.5"; nothing for a factor of 1, nor for what follows
-// time.
+// A choice's keys as text, as it follows the title: " a = 1, b = 0", " x 0.5"; nothing for a factor of 1, nor
+// for what follows time.
 struct KeyText {
   std::string text;
   void factor(const std::string&, double& value);
@@ -84,7 +90,8 @@ template <class Choice, class Has>
 std::string owners(Has has) {
   std::vector<std::string> names;
   for (const Choice& choice : alternatives<Choice>())
-    if (has(choice) && std::count(names.begin(), names.end(), name_of(choice)) == 0) names.push_back(name_of(choice));
+    if (has(choice) && std::count(names.begin(), names.end(), name_of(choice)) == 0)
+      names.push_back(name_of(choice));
   return listed(names);
 }
 
@@ -98,8 +105,9 @@ bool has_key(const Choice& choice, const std::string& key) {
 template <class Choice, class Has>
 void reject(Table& table, const std::string& key, const Choice& choice, const std::string& foreign, Has has) {
   table.accept(foreign);
-  table.error(foreign, "'" + table.path_of(foreign) + "' belongs to " + owners<Choice>(has) + ", and '" +
-                           table.path_of(key) + "' is '" + name_of(choice) + "'",
+  table.error(foreign,
+              "'" + table.path_of(foreign) + "' belongs to " + owners<Choice>(has) + ", and '" +
+                  table.path_of(key) + "' is '" + name_of(choice) + "'",
               "remove it, or use " + owners<Choice>(has));
 }
 
@@ -119,7 +127,8 @@ void read_keys(Table& table, const std::string& key, Choice& choice, Reader read
     for (const std::string& foreign : keys_of(other)) {
       if (std::find(seen.begin(), seen.end(), foreign) != seen.end()) continue;
       seen.push_back(foreign);
-      if (table.has(foreign)) reject(table, key, choice, foreign, [&](const Choice& c) { return has_key(c, foreign); });
+      if (table.has(foreign))
+        reject(table, key, choice, foreign, [&](const Choice& c) { return has_key(c, foreign); });
     }
 }
 

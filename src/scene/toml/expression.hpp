@@ -2,8 +2,8 @@
 #pragma once
 #include <string>
 
-#include "src/scene/toml/diagnostics.hpp"
 #include "src/scene/scene.hpp"
+#include "src/scene/toml/diagnostics.hpp"
 
 namespace freshet::input {
 

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "kernels/choice.hpp"
-#include "src/scene/toml/diagnostics.hpp"
 #include "src/scene/read.hpp"
 #include "src/scene/scene.hpp"
+#include "src/scene/toml/diagnostics.hpp"
 #include "src/scene/toml/toml_names.hpp"
 #include "src/text.hpp"
 
@@ -23,7 +23,8 @@ namespace freshet::input {
 
 // What all tables of one scene share.
 struct Context {
-  KeyNote* note(const std::string& path, const std::string& what);  // of a key, where `keys` are wanted; else null
+  KeyNote* note(const std::string& path,
+                const std::string& what);  // of a key, where `keys` are wanted; else null
 
   Diagnostics& diagnostics;
   std::filesystem::path directory;  // of the scene file: relative paths start here
@@ -31,7 +32,8 @@ struct Context {
   bool exact_failed =
       false;  // [compare] names an exact solution, with errors: no errors follow from its absence
   std::vector<std::string> notes;  // what the reader decided and the user may want to know
-  std::vector<KeyNote>* keys = nullptr;  // takes what the reader asks for, in its order, where somebody wants to know
+  std::vector<KeyNote>* keys =
+      nullptr;  // takes what the reader asks for, in its order, where somebody wants to know
 };
 
 using freshet::shown;
@@ -134,14 +136,16 @@ class Table {
   template <class E>
   Value<E> choice(const std::string& key, const std::vector<std::pair<std::string, E>>& choices);
   template <class E>  // an array of such words
-  Value<std::vector<E>> choices(const std::string& key, const std::vector<std::pair<std::string, E>>& choices);
+  Value<std::vector<E>> choices(const std::string& key,
+                                const std::vector<std::pair<std::string, E>>& choices);
   Value<std::vector<std::string>> words(const std::string& key, const std::vector<std::string>& known);
 
   // Shapes.
   Value<std::vector<double>> numbers(const std::string& key, const std::string& what = "numbers");
   Value<Point> point(const std::string& key, int dimension = 2);  // [x, y]; 1-D: x or [x]
-  Value<std::vector<Point>> points(const std::string& key);       // [[x, y], ...] or a file with a row x, y for each
-  Value<Function> function(const std::string& key);               // a number or an expression in x and y
+  Value<std::vector<Point>> points(
+      const std::string& key);                       // [[x, y], ...] or a file with a row x, y for each
+  Value<Function> function(const std::string& key);  // a number or an expression in x and y
   Value<std::array<Function, 2>> velocity(const std::string& key, int dimension);
   Value<std::string> file(const std::string& key);  // absolute path of an existing file
 
@@ -202,7 +206,8 @@ std::vector<std::string> words_of(const std::vector<std::pair<std::string, E>>& 
 
 // The word that a choice goes by.
 template <class E>
-auto word_for(const E& choice, const std::vector<std::pair<std::string, E>>&, int) -> decltype(name_of(choice)) {
+auto word_for(const E& choice, const std::vector<std::pair<std::string, E>>&, int)
+    -> decltype(name_of(choice)) {
   return written(choice);
 }
 template <class E>
@@ -222,12 +227,14 @@ E chosen(const std::string& word, const std::vector<std::pair<std::string, E>>& 
 template <class E>
 Value<E> Table::choice(const std::string& key, const std::vector<std::pair<std::string, E>>& choices) {
   const std::optional<std::string> found = word(key, words_of(choices)).optional();
-  Value<E> it = value<E>(key, found ? std::optional<E>(chosen(*found, choices)) : std::nullopt, listed(words_of(choices)));
+  Value<E> it = value<E>(key, found ? std::optional<E>(chosen(*found, choices)) : std::nullopt,
+                         listed(words_of(choices)));
   return it.worded([choices](const E& e) { return word_for(e, choices, 0); });
 }
 
 template <class E>
-Value<std::vector<E>> Table::choices(const std::string& key, const std::vector<std::pair<std::string, E>>& choices) {
+Value<std::vector<E>> Table::choices(const std::string& key,
+                                     const std::vector<std::pair<std::string, E>>& choices) {
   const std::optional<std::vector<std::string>> found = words(key, words_of(choices)).optional();
   std::optional<std::vector<E>> all;
   if (found) all.emplace();

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "src/scene/toml/expression.hpp"
 #include "src/scene/data/files.hpp"
+#include "src/scene/toml/expression.hpp"
 #include "src/scene/toml/table.hpp"
 
 namespace freshet::input {
@@ -157,7 +157,8 @@ Value<std::vector<Point>> Table::points_from_file(const std::string& key) {
       if (is_comment_or_empty(line)) return;
       const std::vector<std::string> cells = split_cells(line);
       Point p;
-      if (cells.size() >= 2 && parse_number(cells[0], p[0]) && parse_number(cells[1], p[1])) points.push_back(p);
+      if (cells.size() >= 2 && parse_number(cells[0], p[0]) && parse_number(cells[1], p[1]))
+        points.push_back(p);
       else if (!points.empty() || number > 1)
         throw BadData(at_line(*path.optional(), number) + ": this is not a point, x and y in m");
     });

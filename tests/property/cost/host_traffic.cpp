@@ -4,8 +4,8 @@
 
 #include <atomic>
 
-#include "tests/support/watch/host_traffic.hpp"
 #include "tests/support/run/run_case.hpp"
+#include "tests/support/watch/host_traffic.hpp"
 #include "tests/support/watch/skips.hpp"
 
 using namespace freshet;
@@ -57,7 +57,8 @@ void check_steps(const Scene& scene, const Waits& expected) {
 
 // The same of an implicit method, but that its sums are so many in each iteration of its solvers and so many
 // beside; at_most: fewer where an iteration ends at its half.
-void check_implicit_steps(const Scene& scene, const Waits& expected, int in_each, int beside, bool at_most = false) {
+void check_implicit_steps(const Scene& scene, const Waits& expected, int in_each, int beside,
+                          bool at_most = false) {
   auto steps = traffic_of(scene);
   check_copies(steps);
   for (StepTraffic& step : steps) {
@@ -77,9 +78,11 @@ Waits with(Waits waits, const Waits& more) {
 
 // A bare scene: extents and counts of the sort and the lists, the largest h, the density's report, the time
 // step, the monitor.
-const Waits bare{{"cellgrid::extent", 1},     {"copy cellgrid.block", 1},     {"copy cellgrid.start", 1},
-                 {"copy cellgrid.row_start", 1}, {"cellgrid::largest_h", 1}, {"cellgrid::list", 1},
-                 {"swe::density", 1},         {"swe::accelerate", 1},         {"run::monitor", 1}};
+const Waits bare{{"cellgrid::extent", 1},    {"copy cellgrid.block", 1},
+                 {"copy cellgrid.start", 1}, {"copy cellgrid.row_start", 1},
+                 {"cellgrid::largest_h", 1}, {"cellgrid::list", 1},
+                 {"swe::density", 1},        {"swe::accelerate", 1},
+                 {"run::monitor", 1}};
 
 // Sloping ground with friction between walls; everything is looked at that the program can look at.
 Scene observed_shore() {
@@ -121,11 +124,14 @@ TEST_CASE("host traffic: every hundredth step looks at every field where the fie
   check_copies(steps);
   const Waits usual = with(bare, {{"walls::list", 1}});
   CHECK(steps[0].waits == usual);
-  CHECK(steps[1].waits == with(usual, {{"run::monitor", 1}, {"run::monitor_all", 1}, {sums, 2}}));  // mass, energy
+  CHECK(steps[1].waits ==
+        with(usual, {{"run::monitor", 1}, {"run::monitor_all", 1}, {sums, 2}}));  // mass, energy
   CHECK(steps[2].waits == usual);
 }
 
-TEST_CASE("host traffic: ground and run-ups cost no wait, walls, maxima, the largest speed and gauges that are due one") {
+TEST_CASE(
+    "host traffic: ground and run-ups cost no wait, walls, maxima, the largest speed and gauges that are due "
+    "one") {
   Scene scene = observed_shore();
   const Waits expected = with(bare, {{"walls::list", 1}, {"raster::maxima", 1}, {"run::largest_speed", 1}});
   check_steps(scene, expected);
@@ -151,7 +157,10 @@ TEST_CASE("host traffic: splitting costs the number of parents, merging that of 
 }
 
 TEST_CASE("host traffic: semi-implicit, at rest") {
-  const Waits rest{{"run::monitor", 1}, {"sisph::deepest", 1}, {"sisph::fastest", 1}, {"sisph::dry", 1},
+  const Waits rest{{"run::monitor", 1},
+                   {"sisph::deepest", 1},
+                   {"sisph::fastest", 1},
+                   {"sisph::dry", 1},
                    {"sisph::list_active", 1}};
   check_implicit_steps(test::read_case("sisph_lake"), with(rest, {{"sisph::depths", 2}}), 2, 9);
   const Scene channel = test::read_case("sisph_channel", {"water.spacing=0.5"});
@@ -163,19 +172,39 @@ TEST_CASE("host traffic: semi-implicit, at rest") {
 }
 
 TEST_CASE("host traffic: semi-implicit, moving with the water") {
-  const Waits step{{"run::monitor", 1}, {"sisph::deepest", 1}, {"sisph::fastest", 1}, {"sisph::jump", 2},
-                   {"sisph::shallowest", 2}, {"cellgrid::extent", 1}, {"cellgrid::largest_h", 1},
-                   {"copy cellgrid.block", 1}, {"copy cellgrid.start", 1}, {"copy cellgrid.row_start", 1},
+  const Waits step{{"run::monitor", 1},
+                   {"sisph::deepest", 1},
+                   {"sisph::fastest", 1},
+                   {"sisph::jump", 2},
+                   {"sisph::shallowest", 2},
+                   {"cellgrid::extent", 1},
+                   {"cellgrid::largest_h", 1},
+                   {"copy cellgrid.block", 1},
+                   {"copy cellgrid.start", 1},
+                   {"copy cellgrid.row_start", 1},
                    {"copy cellgrid.pair_start", 1}};
   check_implicit_steps(test::read_case("sisph_hump", {"sisph.formulation=moving"}), step, 2, 4);
 }
 
 TEST_CASE("host traffic: incompressible, pressure gauges not due and due") {
-  const Waits step{{"run::monitor", 1}, {"cellgrid::extent", 1}, {"copy cellgrid.block", 1},
-                   {"copy cellgrid.start", 1}, {"copy cellgrid.row_start", 1}, {"fpm::hold", 1}, {"fpm::voronoi", 1},
-                   {"fpm::decide", 1}, {"fpm::new_places", 1}, {"fpm::list", 1}, {"fpm::stencils", 1},
-                   {"fpm::unknowns", 1}, {"fpm::limit_spray", 1}, {"fpm::fastest", 1}, {"box_multigrid::scale", 1}};
-  const auto scene = [](const char* gauges) { return test::read_case("fpm_lobovsky", {"water.spacing=0.03", gauges}); };
+  const Waits step{{"run::monitor", 1},
+                   {"cellgrid::extent", 1},
+                   {"copy cellgrid.block", 1},
+                   {"copy cellgrid.start", 1},
+                   {"copy cellgrid.row_start", 1},
+                   {"fpm::hold", 1},
+                   {"fpm::voronoi", 1},
+                   {"fpm::decide", 1},
+                   {"fpm::new_places", 1},
+                   {"fpm::list", 1},
+                   {"fpm::stencils", 1},
+                   {"fpm::unknowns", 1},
+                   {"fpm::limit_spray", 1},
+                   {"fpm::fastest", 1},
+                   {"box_multigrid::scale", 1}};
+  const auto scene = [](const char* gauges) {
+    return test::read_case("fpm_lobovsky", {"water.spacing=0.03", gauges});
+  };
   check_implicit_steps(scene("output.gauges_every=0.9"), step, 5, 4, true);
   check_copies(traffic_of(scene("output.gauges_every=1e-4")));
 }

@@ -6,7 +6,8 @@
 #include "tests/support/watch/skips.hpp"
 
 using namespace freshet;
-using test::bare_step, test::drop, test::extra_labels, test::field_names, test::minus, test::Names, test::sorted_fields;
+using test::bare_step, test::drop, test::extra_labels, test::field_names, test::minus, test::Names,
+    test::sorted_fields;
 using test::Flow;
 using test::Recording;
 
@@ -39,10 +40,8 @@ TEST_CASE("skips: a step allocates nothing after the first ones") {
 TEST_CASE("skips: walls and open boundaries allocate nothing inside a step either") {
   Scene scene = test::bare_scene(2, {0, 0}, {1.2, 0.4}, 0.05);
   scene.water.depth = [](double x, double) { return 0.3 + 0.02 * x; };
-  if (GENERATE(false, true))
-    test::open_left(scene, IncomingWave{}, {{0}, {0.3}});
-  else
-    test::close_box(scene);
+  if (GENERATE(false, true)) test::open_left(scene, IncomingWave{}, {{0}, {0.3}});
+  else test::close_box(scene);
   CAPTURE(scene.boundaries.size());
   Flow flow(scene);
   flow.many_steps(10);
@@ -114,7 +113,8 @@ TEST_CASE("skips: launches come with the features that need them") {
   }
 }
 
-TEST_CASE("skips: splitting and merging need no field, and where nothing is to do few launches and no memory") {
+TEST_CASE(
+    "skips: splitting and merging need no field, and where nothing is to do few launches and no memory") {
   Scene scene = drop();
   const Names bare = field_names(scene);
   scene.split = Split{};
@@ -165,7 +165,8 @@ TEST_CASE("skips: the curvature of a bed is looked up only where it matters") {
 
 TEST_CASE("skips: no roughness is no friction to the bit") {
   Scene plain = drop(), smooth = drop();
-  plain.bed.elevation = smooth.bed.elevation = [](double x, double y) { return 0.1 * x * x + 0.05 * std::sin(3 * y); };
+  plain.bed.elevation =
+      smooth.bed.elevation = [](double x, double y) { return 0.1 * x * x + 0.05 * std::sin(3 * y); };
   smooth.manning = 0;
   Flow a(plain), b(smooth);
   a.many_steps(60), b.many_steps(60);

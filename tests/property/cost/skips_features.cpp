@@ -1,5 +1,5 @@
-// Each feature adds its own launches and fields, and no more; what a dimension, a fixed h or a stabilisation does not need is
-// not done; recorders of the run loop launch only where the scene names them.
+// Each feature adds its own launches and fields, and no more; what a dimension, a fixed h or a stabilisation
+// does not need is not done; recorders of the run loop launch only where the scene names them.
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -11,7 +11,8 @@
 #include "tests/support/watch/skips.hpp"
 
 using namespace freshet;
-using test::bare_step, test::drop, test::extra_labels, test::field_names, test::launches, test::minus, test::Names;
+using test::bare_step, test::drop, test::extra_labels, test::field_names, test::launches, test::minus,
+    test::Names;
 using test::Flow;
 using test::Recording;
 
@@ -20,7 +21,8 @@ namespace {
 const Names velocity_gradient{"strain_xx", "strain_xy", "strain_yy"};
 
 // One launch more of a label, behind the first of another.
-std::vector<std::string> with(std::vector<std::string> labels, const std::string& after, const std::string& label) {
+std::vector<std::string> with(std::vector<std::string> labels, const std::string& after,
+                              const std::string& label) {
   labels.insert(std::find(labels.begin(), labels.end(), after) + 1, label);
   return labels;
 }
@@ -41,7 +43,8 @@ Loop loop_of(Scene scene) {
   driver.run();
   Loop loop{{}, {recording.allocations.begin(), recording.allocations.end()}};
   for (const auto& label : recording.labels())
-    if (label.rfind("Kokkos::View::initialization", 0) != 0) loop.labels.insert(label);  // part of an allocation
+    if (label.rfind("Kokkos::View::initialization", 0) != 0)
+      loop.labels.insert(label);  // part of an allocation
   return loop;
 }
 
@@ -51,7 +54,8 @@ TEST_CASE("skips: in 1-D the same passes run without y") {
   const Scene scene = drop(1);
   Flow flow(scene);
   CHECK(launches(scene) == bare_step(test::sorted_fields(flow.method->fields())));
-  for (const auto& name : {"y", "v", "v_pred", "ay", "ty", "strain_xy", "strain_yy"}) CHECK_FALSE(flow.method->fields().has(name));
+  for (const auto& name : {"y", "v", "v_pred", "ay", "ty", "strain_xy", "strain_yy"})
+    CHECK_FALSE(flow.method->fields().has(name));
 }
 
 TEST_CASE("skips: pairs in single precision add their two copies") {
@@ -86,7 +90,8 @@ TEST_CASE("skips: with a fixed h the density is the plain sum over all particles
   scene.sph.h_floor = scene.sph.h_cap = 1;
   Flow flow(scene);
   flow.many_steps(20);
-  const auto x = flow.real("x"), y = flow.real("y"), m = flow.real("mass"), depth = flow.real("depth"), h = flow.real("h");
+  const auto x = flow.real("x"), y = flow.real("y"), m = flow.real("mass"), depth = flow.real("depth"),
+             h = flow.real("h");
   double worst = 0;
   for (int i = 0; i < flow.size(); i += 13) {
     double sum = 0;
@@ -129,8 +134,10 @@ TEST_CASE("skips: other kernels and the lattice correction add nothing") {
 TEST_CASE("skips: every kind of wall adds the list of its points and the reflection") {
   Scene scene = drop();
   test::close_box(scene);
-  const auto walled = with(with(bare_step(13), "swe::kick_and_drift", "walls::reflect"), "cellgrid::list", "walls::list");
-  const auto kind = GENERATE(WallKind::automatic, WallKind::none, WallKind::vbp, WallKind::mvbp, WallKind::image_rows, WallKind::images);
+  const auto walled =
+      with(with(bare_step(13), "swe::kick_and_drift", "walls::reflect"), "cellgrid::list", "walls::list");
+  const auto kind = GENERATE(WallKind::automatic, WallKind::none, WallKind::vbp, WallKind::mvbp,
+                             WallKind::image_rows, WallKind::images);
   scene.sph.walls = kind;
   const std::string name = kind.name;
   const bool mirrors = name == "automatic" || name == "mirror";  // which ask how far neighbours' images reach
@@ -155,7 +162,8 @@ TEST_CASE("skips: every kind of open boundary adds the field of kinds and launch
   const Names bare = field_names(scene);
   const OpenLaw law = GENERATE(from_range(alternatives<OpenLaw>()));
   test::open_left(scene, law, {{0}, {0.3}});
-  for (const char* what : {"velocity", "discharge"}) test::impose_if_known(scene.boundaries[0], what, {{0}, {0.01}});
+  for (const char* what : {"velocity", "discharge"})
+    test::impose_if_known(scene.boundaries[0], what, {{0}, {0.01}});
   scene.walls.clear();
   CHECK(minus(field_names(scene), bare) == Names{"kind"});
   for (const auto& label : extra_labels(scene)) {
@@ -167,26 +175,30 @@ TEST_CASE("skips: every kind of open boundary adds the field of kinds and launch
 TEST_CASE("skips: dry land around changes neither launches nor results") {
   Scene small = drop(), large = drop();
   large.domain = {2, {-40, -40}, {40, 40}};
-  // To round-off: at the default tolerance a rounding may decide whether a cluster evaluates its density once more.
+  // To round-off: at the default tolerance a rounding may decide whether a cluster evaluates its density once
+  // more.
   small.sph.newton_tolerance = large.sph.newton_tolerance = 1e-22;
   Flow a(small), b(large);
   a.many_steps(40), b.many_steps(40);
   CHECK(launches(large) == launches(small));
   CHECK(a.t == Approx(b.t).epsilon(1e-12));
-  // Cells count from the domain's corner: 40 m away a position is rounded by 7e-15 m, and 40 steps may amplify that.
+  // Cells count from the domain's corner: 40 m away a position is rounded by 7e-15 m, and 40 steps may
+  // amplify that.
   for (const char* name : {"x", "y", "u", "v", "depth", "h"}) {
     CAPTURE(name);
     CHECK(test::largest_difference(a.by_id(name), b.by_id(name)) < 1e-11);
   }
 }
 
-TEST_CASE("skips: the run loop looks at every particle once, recorders that the scene names add their own launch") {
+TEST_CASE(
+    "skips: the run loop looks at every particle once, recorders that the scene names add their own launch") {
   const auto observers = [](const Scene& of) { return make_observers(of, "").size(); };
   CHECK(observers(drop()) == 4);  // the monitor, those of stability and energy, and the particles' output
   const Loop bare = loop_of(drop());
   const auto step = bare_step(1);
   Names expected{step.begin(), step.end()};
-  expected.insert({"run::monitor", "run::monitor_all", "swe::mass"});  // the last two at outputs and every hundredth step
+  expected.insert(
+      {"run::monitor", "run::monitor_all", "swe::mass"});  // the last two at outputs and every hundredth step
   CHECK(bare.labels == expected);
 
   Scene scene = drop();

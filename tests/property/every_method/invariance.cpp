@@ -12,7 +12,8 @@ constexpr int nx = 30, ny = 20;
 constexpr double dx = 0.04;  // m
 constexpr int steps = 50;
 
-// A basin with walls, a rough bed with a hump off its middle and an inclined surface: everything that a closed scene has.
+// A basin with walls, a rough bed with a hump off its middle and an inclined surface: everything that a
+// closed scene has.
 struct Basin {
   double x0 = 0, y0 = 0;  // m, its corner
   double datum = 0;       // m
@@ -32,11 +33,13 @@ struct Basin {
   }
   Scene scene() const {
     const double w = nx * dx, h = ny * dx;
-    Scene s = turned ? test::bare_scene(2, {x0 - h, y0}, {x0, y0 + w}, dx) : test::bare_scene(2, {x0, y0}, {x0 + w, y0 + h}, dx);
+    Scene s = turned ? test::bare_scene(2, {x0 - h, y0}, {x0, y0 + w}, dx)
+                     : test::bare_scene(2, {x0, y0}, {x0 + w, y0 + h}, dx);
     s.bed.elevation = seen(&Basin::bed);
     s.water.surface = seen(&Basin::surface);
     s.manning = 0.03;
-    s.sph.newton_tolerance = 1e-22;  // a cluster iterates together: at 1e-5 its members would show in the sixth digit
+    s.sph.newton_tolerance =
+        1e-22;  // a cluster iterates together: at 1e-5 its members would show in the sixth digit
     test::close_box(s);
     return s;
   }
@@ -82,8 +85,9 @@ TEST_CASE("invariance: the basin of these tests does move") {
   CHECK(flow.t > 0.2);
 }
 
-// The bounds below are some ten times a rounding of the input, as far as fifty steps near walls magnify it: an error e of a
-// position changes the depth by d e/dx and the acceleration by g d e/dx^2, that is 3e3 1/s^2 e over 0.35 s.
+// The bounds below are some ten times a rounding of the input, as far as fifty steps near walls magnify it:
+// an error e of a position changes the depth by d e/dx and the acceleration by g d e/dx^2, that is 3e3 1/s^2
+// e over 0.35 s.
 
 TEST_CASE("invariance: bed and surface raised by 100 m") {
   // Levels round by 1.4e-14 m, slopes by that over dx: 4e-13, times g t.
@@ -167,7 +171,8 @@ TEST_CASE("invariance: going on from a saved state, also where a wall is crossed
   straight.step(dt);
   copy_saved(straight, resumed);
   int crossing = 0;
-  for (int i = 0; i < straight.size(); ++i) crossing += straight.real("y")(i) + dt * straight.real("v")(i) < 0;
+  for (int i = 0; i < straight.size(); ++i)
+    crossing += straight.real("y")(i) + dt * straight.real("v")(i) < 0;
   REQUIRE(crossing > 0);
   double worst = 0;
   for (int n = 0; n < 10; ++n) {

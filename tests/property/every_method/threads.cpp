@@ -1,4 +1,5 @@
-// The program gives the same bytes with one and two threads, and whether it runs straight or is interrupted and resumed.
+// The program gives the same bytes with one and two threads, and whether it runs straight or is interrupted
+// and resumed.
 #include <catch2/catch.hpp>
 
 #include <signal.h>
@@ -52,7 +53,8 @@ int freshet_program(const Words& words) { return wait_for(start(words)); }
 
 Words run_words(Words scene, const std::string& directory, int threads) {
   scene.insert(scene.begin(), "run");
-  for (const auto& word : {std::string("--quiet"), std::string("--threads"), std::to_string(threads), std::string("--out"), directory})
+  for (const auto& word : {std::string("--quiet"), std::string("--threads"), std::to_string(threads),
+                           std::string("--out"), directory})
     scene.push_back(word);
   return scene;
 }
@@ -84,7 +86,8 @@ void check_threads(const Words& scene) {
   require_same_results(scratch / "one", scratch / "two");
 }
 
-// A channel with a wave boundary, an uneven bed from an expression, friction, walls, a gauge in the water and one at the shore.
+// A channel with a wave boundary, an uneven bed from an expression, friction, walls, a gauge in the water and
+// one at the shore.
 std::string channel(const test::Scratch& scratch, double end) {
   std::string wave = "t,level\n";
   for (int k = 0; k <= 400; ++k) {
@@ -135,7 +138,8 @@ int interrupted_run(const Words& words, const std::string& directory, std::size_
   const pid_t child = start(words);
   int status = 0;
   while (lines_of(directory + "/gauges.csv") < rows) {
-    if (waitpid(child, &status, WNOHANG) == child) return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    if (waitpid(child, &status, WNOHANG) == child)
+      return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   kill(child, SIGINT);
@@ -160,7 +164,8 @@ TEST_CASE("threads: one and two give the same bytes: semi-implicit") {
   check_threads({"cases/sisph_bump.toml", "water.disorder=0.2", "time.end=0.03"});
   check_threads({"cases/thacker.toml", "scene.method=sisph", "water.spacing=150", "time.end=300"});
   check_threads({"cases/sisph_seiche.toml", "time.end=0.1"});
-  check_threads({"cases/sisph_seiche.toml", "sisph.formulation=moving", "water.depth=1+0.1*cos(pi*x)", "time.end=0.1"});
+  check_threads(
+      {"cases/sisph_seiche.toml", "sisph.formulation=moving", "water.depth=1+0.1*cos(pi*x)", "time.end=0.1"});
 }
 
 TEST_CASE("threads: one and two give the same bytes: incompressible dam break") {
@@ -174,12 +179,14 @@ TEST_CASE("threads: one and two give the same bytes: open channel") {
 
 TEST_CASE("threads: a run that is interrupted and resumed ends with the bytes of the straight one") {
   const test::Scratch scratch;
-  const std::string scene = channel(scratch, 40), straight = scratch / "straight", pieces = scratch / "pieces";
+  const std::string scene = channel(scratch, 40), straight = scratch / "straight",
+                    pieces = scratch / "pieces";
   REQUIRE(freshet_program(run_words({scene}, straight, 1)) == 0);
   const std::size_t rows = lines_of(straight + "/gauges.csv");
   REQUIRE(rows > 500);
   int code = 0;
-  for (int attempt = 0; attempt < 5 && code == 0; ++attempt) {  // 0: the machine was busy and the signal came too late
+  for (int attempt = 0; attempt < 5 && code == 0;
+       ++attempt) {  // 0: the machine was busy and the signal came too late
     fs::remove_all(pieces);
     code = interrupted_run(run_words({scene}, pieces, 2), pieces, rows / 4);
   }

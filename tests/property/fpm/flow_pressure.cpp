@@ -1,4 +1,5 @@
-// The pressure that gauges of an incompressible flow show: solved for from the velocities, without a step's impulses.
+// The pressure that gauges of an incompressible flow show: solved for from the velocities, without a step's
+// impulses.
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 using namespace freshet;
 
 namespace {
-
 
 std::vector<double> flow_pressures(const test::FlowRun& run) {
   const auto p = on_host(run.solver.flow_pressure());
@@ -43,15 +43,17 @@ TEST_CASE("fpm flow pressure: still water has the weight of what is above it") {
   const auto p = flow_pressures(run);
   double top = 0, most = 0;
   for (const auto& q : points) top = std::max(top, q.y);
-  for (std::size_t i = 0; i < p.size(); ++i) most = std::max(most, std::abs(p[i] - 1000 * 9.81 * (top - points[i].y)));
-  CHECK(most < 1e-7 * 1000 * 9.81 * top);  // the equation's tolerance, 1e-9 of its right side, and what the water still moves
+  for (std::size_t i = 0; i < p.size(); ++i)
+    most = std::max(most, std::abs(p[i] - 1000 * 9.81 * (top - points[i].y)));
+  CHECK(most < 1e-7 * 1000 * 9.81 *
+                   top);  // the equation's tolerance, 1e-9 of its right side, and what the water still moves
 }
 
 TEST_CASE("fpm flow pressure: vortices, second order") {
   const double coarse = vortex_error(20), fine = vortex_error(40);
   CAPTURE(coarse, fine);
-  CHECK(fine < 0.01);             // amplitude 0.25
-  CHECK(coarse / fine > 2.5);     // velocities' slopes are of second order: 4, less where points have rearranged
+  CHECK(fine < 0.01);          // amplitude 0.25
+  CHECK(coarse / fine > 2.5);  // velocities' slopes are of second order: 4, less where points have rearranged
 }
 
 TEST_CASE("fpm flow pressure: what a gauge asks for changes nothing in the run") {
@@ -64,6 +66,7 @@ TEST_CASE("fpm flow pressure: what a gauge asks for changes nothing in the run")
   const auto a = with.points(), b = without.points();
   REQUIRE(a.size() == b.size());
   bool same = true;
-  for (std::size_t i = 0; i < a.size(); ++i) same = same && a[i].x == b[i].x && a[i].v == b[i].v && a[i].p == b[i].p;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    same = same && a[i].x == b[i].x && a[i].v == b[i].v && a[i].p == b[i].p;
   CHECK(same);
 }

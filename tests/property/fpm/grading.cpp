@@ -1,5 +1,5 @@
-// Spacing that varies by place (fpm.grading, here by a factor of 3): points keep to it, quadratics stay exact, Poisson's equation second
-// order, still water still.
+// Spacing that varies by place (fpm.grading, here by a factor of 3): points keep to it, quadratics stay
+// exact, Poisson's equation second order, still water still.
 #include <catch2/catch.hpp>
 
 #include "kernels/fpm/pressure/elliptic.hpp"
@@ -15,10 +15,12 @@ using namespace freshet::fpm;
 namespace {
 
 Scene unit_square(double spacing) {
-  return read_scene_text("[scene]\nname = \"square\"\nmethod = \"fpm\"\n[domain]\nbox = [0, 0, 1, 1]\n[fpm]\ngrading = \"1 + 2*x\"\n[water]\nspacing = " +
-                             std::to_string(spacing) +
-                             "\ndisorder = 0.1\n[[body]]\nbox = [0, 0, 1, 1]\n[time]\nend = 1\n[output]\nevery = 1\n",
-                         "square.toml");
+  return read_scene_text(
+      "[scene]\nname = \"square\"\nmethod = \"fpm\"\n[domain]\nbox = [0, 0, 1, 1]\n[fpm]\ngrading = \"1 + "
+      "2*x\"\n[water]\nspacing = " +
+          std::to_string(spacing) +
+          "\ndisorder = 0.1\n[[body]]\nbox = [0, 0, 1, 1]\n[time]\nend = 1\n[output]\nevery = 1\n",
+      "square.toml");
 }
 
 // The square's points in order, with their supports, and the lists.
@@ -41,7 +43,8 @@ struct Graded {
   double y(int i) const { return fields.real("y")(i); }
   Field<double> make(const char* name) { return fields.real(name, "1", Carry::no); }
 
-  // Root mean square of the error for psi = cos(2 x + 0.5) cos(2 y + 0.5), given on x = 0 and y = 1, its flux on the other sides.
+  // Root mean square of the error for psi = cos(2 x + 0.5) cos(2 y + 0.5), given on x = 0 and y = 1, its flux
+  // on the other sides.
   double poisson_error() {
     const auto f = make("f"), g = make("g"), given = make("given"), psi = make("psi");
     const VecField<double, 2> normal{make("nx"), make("ny")};
@@ -79,7 +82,8 @@ TEST_CASE("Points of a graded cloud stand at the spacing that is asked for") {
   const auto points = place_points(scene);
   double integral = 0;  // of 1 / spacing^2
   for (int k = 0; k < 1000; ++k) integral += 1e-3 / std::pow(spacing_at(scene, {(k + 0.5) / 1000, 0.5}), 2);
-  CHECK(static_cast<double>(points.size()) == Approx(integral).epsilon(0.15));  // between a lattice at 1 and closest packing at 0.9
+  CHECK(static_cast<double>(points.size()) ==
+        Approx(integral).epsilon(0.15));  // between a lattice at 1 and closest packing at 0.9
   for (const auto& p : points) {
     double nearest = 1e300;
     for (const auto& q : points)
@@ -95,21 +99,26 @@ TEST_CASE("Stencils on a graded cloud reproduce quadratics") {
   Stencils<2> stencils;
   REQUIRE(stencils.find(cloud.finder.view()).poor == 0);
   const auto f = cloud.make("f");
-  for (int i = 0; i < cloud.size(); ++i) f(i) = 1 + 2 * cloud.x(i) - cloud.y(i) + 3 * cloud.x(i) * cloud.x(i) - cloud.x(i) * cloud.y(i) + 0.5 * cloud.y(i) * cloud.y(i);
-  const VecField<double, 2> slope{cloud.make("sx"), cloud.make("sy")}, lap{cloud.make("lx"), cloud.make("ly")};
+  for (int i = 0; i < cloud.size(); ++i)
+    f(i) = 1 + 2 * cloud.x(i) - cloud.y(i) + 3 * cloud.x(i) * cloud.x(i) - cloud.x(i) * cloud.y(i) +
+           0.5 * cloud.y(i) * cloud.y(i);
+  const VecField<double, 2> slope{cloud.make("sx"), cloud.make("sy")},
+      lap{cloud.make("lx"), cloud.make("ly")};
   stencils.gradient(f, slope);
   stencils.laplacian({f, f}, lap);
   double worst = 0, worst_lap = 0;
   for (int i = 0; i < cloud.size(); ++i) {
-    worst = std::max({worst, std::abs(slope.x(i) - (2 + 6 * cloud.x(i) - cloud.y(i))), std::abs(slope.y(i) - (-1 - cloud.x(i) + cloud.y(i)))});
+    worst = std::max({worst, std::abs(slope.x(i) - (2 + 6 * cloud.x(i) - cloud.y(i))),
+                      std::abs(slope.y(i) - (-1 - cloud.x(i) + cloud.y(i)))});
     worst_lap = std::max(worst_lap, std::abs(lap.x(i) - 7));
   }
-  CHECK(worst < 1e-11);       // round-off over h
-  CHECK(worst_lap < 1e-9);    // over h^2
+  CHECK(worst < 1e-11);     // round-off over h
+  CHECK(worst_lap < 1e-9);  // over h^2
 }
 
 TEST_CASE("Poisson's equation on graded clouds converges with order 2") {
-  const double coarse = Graded(0.02).poisson_error(), middle = Graded(0.01).poisson_error(), fine = Graded(0.005).poisson_error();
+  const double coarse = Graded(0.02).poisson_error(), middle = Graded(0.01).poisson_error(),
+               fine = Graded(0.005).poisson_error();
   CAPTURE(coarse, middle, fine);
   // Clouds that are not refinements of each other: between two halvings the order is 1.9 in the mean.
   CHECK(0.5 * std::log2(coarse / fine) > 1.9);
@@ -138,7 +147,9 @@ TEST_CASE("A column that collapses through a graded cloud keeps its area") {
   const auto points = run.points();
   for (const auto& p : points)
     for (const auto& q : points)
-      if (&p != &q) nearest = std::min(nearest, std::hypot(p.x - q.x, p.y - q.y) / (0.003 * (1 + 8 * std::min(p.x, q.x))));
+      if (&p != &q)
+        nearest =
+            std::min(nearest, std::hypot(p.x - q.x, p.y - q.y) / (0.003 * (1 + 8 * std::min(p.x, q.x))));
   CHECK(nearest > 0.2);  // pairs closer than 0.64 spacings are merged, one pair a point and step
 }
 

@@ -1,5 +1,5 @@
-// Points carried by given velocity fields and managed in every step: their number and the voids between them stay bounded,
-// what they carry is kept, walls hold them.
+// Points carried by given velocity fields and managed in every step: their number and the voids between them
+// stay bounded, what they carry is kept, walls hold them.
 #include <catch2/catch.hpp>
 
 #include <functional>
@@ -12,7 +12,7 @@ using test::FlowPoints;
 
 namespace {
 
-constexpr double dx = 0.05;  // m
+constexpr double dx = 0.05;                       // m
 using Flow = std::function<Point(const Point&)>;  // m/s at m
 
 // A set of points that rides on a flow.
@@ -25,7 +25,8 @@ struct Ride {
 
   Ride(const std::vector<Point>& start, const std::vector<Polyline>& walls = {}, const Period& period = {},
        fpm::PointFields carried = {})
-      : set(start, dx, walls), points({dx, 3.2 * dx}, set.tank, period, carried), next_id(static_cast<int>(start.size())) {
+      : set(start, dx, walls), points({dx, 3.2 * dx}, set.tank, period, carried),
+        next_id(static_cast<int>(start.size())) {
     set.period = period;
     fpm::PointMarks().declare(FieldList::making(set.fields));
     Kokkos::deep_copy(set.fields.integer("side"), -1);
@@ -34,11 +35,15 @@ struct Ride {
     for (const auto& name : carried.scalars) set.fields.real(name, "1", Carry::state);
   }
 
-  void stand(const std::vector<fpm::WallStart>& starts) {  // the last points of the start are those of the walls
-    const auto id = set.fields.integer("id"), kind = set.fields.integer("kind"), side = set.fields.integer("side");
+  void stand(
+      const std::vector<fpm::WallStart>& starts) {  // the last points of the start are those of the walls
+    const auto id = set.fields.integer("id"), kind = set.fields.integer("kind"),
+               side = set.fields.integer("side");
     for (int i = 0; i < set.size(); ++i) {
       const int k = id(i) - (next_id - static_cast<int>(starts.size()));
-      if (k >= 0) kind(i) = starts[static_cast<std::size_t>(k)].kind, side(i) = starts[static_cast<std::size_t>(k)].side;
+      if (k >= 0)
+        kind(i) = starts[static_cast<std::size_t>(k)].kind,
+        side(i) = starts[static_cast<std::size_t>(k)].side;
     }
   }
 
@@ -70,16 +75,18 @@ struct Ride {
     return std::sqrt(least);
   }
   std::string story() const {
-    return "points " + std::to_string(fewest) + " to " + std::to_string(most) + ", now " + std::to_string(set.size()) + ", inserted " +
-           std::to_string(count.inserted) + ", merged " + std::to_string(count.merged) + ", removed " + std::to_string(count.removed) +
-           ", landed " + std::to_string(count.landed) + ", surface at most " + std::to_string(most_surface) + ", now " +
+    return "points " + std::to_string(fewest) + " to " + std::to_string(most) + ", now " +
+           std::to_string(set.size()) + ", inserted " + std::to_string(count.inserted) + ", merged " +
+           std::to_string(count.merged) + ", removed " + std::to_string(count.removed) + ", landed " +
+           std::to_string(count.landed) + ", surface at most " + std::to_string(most_surface) + ", now " +
            std::to_string(last.surface) + ", nearest pair / dx " + std::to_string(nearest_pair() / dx);
   }
 };
 
 // Four eddies in a square of 1 m, speed up to 1 m/s; its sides are stream lines.
 Point eddies(const Point& p) {
-  return {-std::cos(2 * pi * p[0]) * std::sin(2 * pi * p[1]), std::sin(2 * pi * p[0]) * std::cos(2 * pi * p[1])};
+  return {-std::cos(2 * pi * p[0]) * std::sin(2 * pi * p[1]),
+          std::sin(2 * pi * p[0]) * std::cos(2 * pi * p[1])};
 }
 
 std::vector<Point> square() { return test::lattice(2, {0, 20, 0, 20}, dx); }
@@ -88,7 +95,8 @@ std::vector<Point> square() { return test::lattice(2, {0, 20, 0, 20}, dx); }
 std::vector<Point> disc(int rings) {
   std::vector<Point> points = {{0, 0}};
   for (int r = 1; r <= rings; ++r)
-    for (int k = 0; k < 6 * r; ++k) points.push_back({r * dx * std::cos(2 * pi * k / (6 * r)), r * dx * std::sin(2 * pi * k / (6 * r))});
+    for (int k = 0; k < 6 * r; ++k)
+      points.push_back({r * dx * std::cos(2 * pi * k / (6 * r)), r * dx * std::sin(2 * pi * k / (6 * r))});
   return points;
 }
 
@@ -148,8 +156,10 @@ TEST_CASE("fpm points: a disc that is stretched keeps its surface") {
     if (surface(i) == 1) off = std::max(off, distance), square += distance * distance / ride.last.surface;
     within += surface(i) == 0 && distance < 0.3 * dx;
   }
-  INFO(ride.story() << ", off the ellipse / dx " << off / dx << ", rms " << std::sqrt(square) / dx << ", inner points close to it " << within);
-  // An edge of 1.45 dx over an arc of radius r has its middle 0.26 dx^2 / r off it; at the tips r goes from 20 dx down to 0.4 dx.
+  INFO(ride.story() << ", off the ellipse / dx " << off / dx << ", rms " << std::sqrt(square) / dx
+                    << ", inner points close to it " << within);
+  // An edge of 1.45 dx over an arc of radius r has its middle 0.26 dx^2 / r off it; at the tips r goes from
+  // 20 dx down to 0.4 dx.
   CHECK(off < 0.2 * dx);
   CHECK(std::sqrt(square) < 0.03 * dx);
   CHECK(ride.fewest > 1100);
@@ -169,7 +179,8 @@ TEST_CASE("fpm points: water that turns in a tank stays in it") {
   const Flow swirl = [](const Point& p) {
     return Point{std::sin(pi * p[0]) * std::cos(pi * p[1]), -std::cos(pi * p[0]) * std::sin(pi * p[1])};
   };
-  for (int k = 0; k < 600; ++k) ride.step(swirl, 0.5 * dx);  // 15 s: the edge turns over in 4 s, the middle in 2 s
+  for (int k = 0; k < 600; ++k)
+    ride.step(swirl, 0.5 * dx);  // 15 s: the edge turns over in 4 s, the middle in 2 s
   int outside = 0, off = 0;
   const auto kind = ride.set.fields.integer("kind");
   for (int i = 0; i < ride.set.size(); ++i) {
@@ -200,7 +211,8 @@ TEST_CASE("fpm points: walls fall dry and become wet") {
   int t = 0;
   const Flow wave = [&t](const Point& p) {
     const double swing = 0.5 * std::cos(2 * pi * t / 100) / std::sinh(pi);
-    return Point{-swing * std::sin(pi * p[0]) * std::cosh(pi * p[1]), swing * std::cos(pi * p[0]) * std::sinh(pi * p[1])};
+    return Point{-swing * std::sin(pi * p[0]) * std::cosh(pi * p[1]),
+                 swing * std::cos(pi * p[0]) * std::sinh(pi * p[1])};
   };
   double highest = 0, lowest = 10, widest = 0;
   const auto kind = [&](int i) { return ride.set.fields.integer("kind")(i); };
@@ -214,7 +226,8 @@ TEST_CASE("fpm points: walls fall dry and become wet") {
     highest = std::max(highest, left.back());
     lowest = std::min(lowest, left.back());
   }
-  INFO(ride.story() << ", left wall wet to " << lowest << " .. " << highest << ", widest gap / dx " << widest / dx);
+  INFO(ride.story() << ", left wall wet to " << lowest << " .. " << highest << ", widest gap / dx "
+                    << widest / dx);
   CHECK(highest > 1.12);  // amplitude 0.5 x 100 steps x 0.02 s / (2 pi) = 0.16 m
   CHECK(lowest < 0.9);
   CHECK(widest < 1.6 * dx);
@@ -222,8 +235,11 @@ TEST_CASE("fpm points: walls fall dry and become wet") {
 }
 
 TEST_CASE("fpm points: quadratic fields survive any exchange of points") {
-  Ride ride(test::jittered(test::lattice(2, {0, 30, 0, 30}, dx), 0.45 * dx, 3), {}, {}, {{{"u", "v"}}, {"p"}});
-  const auto p_at = [](const Point& x) { return 1 + x[0] - 2 * x[1] + 3 * x[0] * x[0] - x[0] * x[1] + 0.5 * x[1] * x[1]; };
+  Ride ride(test::jittered(test::lattice(2, {0, 30, 0, 30}, dx), 0.45 * dx, 3), {}, {},
+            {{{"u", "v"}}, {"p"}});
+  const auto p_at = [](const Point& x) {
+    return 1 + x[0] - 2 * x[1] + 3 * x[0] * x[0] - x[0] * x[1] + 0.5 * x[1] * x[1];
+  };
   for (int k = 0; k < 30; ++k) {
     const auto p = ride.set.fields.real("p"), u = ride.set.fields.real("u"), v = ride.set.fields.real("v");
     if (k == 0)
@@ -239,7 +255,8 @@ TEST_CASE("fpm points: quadratic fields survive any exchange of points") {
   INFO(ride.story() << ", worst " << worst);
   CHECK(ride.count.inserted + ride.count.merged > 50);
   CHECK(ride.last.step.inserted + ride.last.step.merged == 0);  // it comes to rest
-  CHECK(worst < 1e-9);  // values up to 12; the fit of points in strings is ill-conditioned (condition up to 1e4)
+  CHECK(worst <
+        1e-9);  // values up to 12; the fit of points in strings is ill-conditioned (condition up to 1e4)
 }
 
 TEST_CASE("fpm points: the order in which points are given does not matter") {
@@ -253,7 +270,8 @@ TEST_CASE("fpm points: the order in which points are given does not matter") {
     for (int k = 0; k < 50; ++k) ride.step(eddies, 0.5 * dx);
     std::vector<std::array<double, 3>> state;
     for (int i = 0; i < ride.set.size(); ++i)
-      state.push_back({ride.set.at(i)[0], ride.set.at(i)[1], static_cast<double>(ride.set.fields.integer("id")(i))});
+      state.push_back(
+          {ride.set.at(i)[0], ride.set.at(i)[1], static_cast<double>(ride.set.fields.integer("id")(i))});
     return state;
   };
   const auto ids = test::numbers(static_cast<int>(start.size()));

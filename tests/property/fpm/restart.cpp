@@ -11,8 +11,8 @@ namespace {
 
 using Words = std::vector<std::string>;
 const Words small{"water.spacing=0.0057", "time.end=0.18", "output.every=0.18"};
-const Words every_feature{"water.spacing=0.004", "fpm.grading=1 + 8*x", "fluid.viscosity=1e-3", "fpm.diffusion=implicit", "time.end=0.18",
-                          "output.every=0.18"};
+const Words every_feature{"water.spacing=0.004",    "fpm.grading=1 + 8*x", "fluid.viscosity=1e-3",
+                          "fpm.diffusion=implicit", "time.end=0.18",       "output.every=0.18"};
 
 void advance(fpm::FinitePointset& solver, int steps) {
   for (int k = 0; k < steps; ++k) solver.step(0, solver.stable_dt());
@@ -21,7 +21,9 @@ void advance(fpm::FinitePointset& solver, int steps) {
 template <class Named>
 void copy_saved(const Named& from, const Named& to, int n) {
   for (std::size_t f = 0; f < from.size(); ++f)
-    if (is_saved(from[f].carry)) std::memcpy(to[f].data.data(), from[f].data.data(), sizeof(from[f].data(0)) * static_cast<std::size_t>(n));
+    if (is_saved(from[f].carry))
+      std::memcpy(to[f].data.data(), from[f].data.data(),
+                  sizeof(from[f].data(0)) * static_cast<std::size_t>(n));
 }
 
 // A solver that knows of the other only what a checkpoint holds.
@@ -36,7 +38,9 @@ void take_up(const fpm::FinitePointset& from, fpm::FinitePointset& to) {
 template <class Named>
 bool same_saved(const Named& a, const Named& b, int n) {
   for (std::size_t f = 0; f < a.size(); ++f)
-    if (is_saved(a[f].carry) && std::memcmp(a[f].data.data(), b[f].data.data(), sizeof(a[f].data(0)) * static_cast<std::size_t>(n)) != 0) return false;
+    if (is_saved(a[f].carry) && std::memcmp(a[f].data.data(), b[f].data.data(),
+                                            sizeof(a[f].data(0)) * static_cast<std::size_t>(n)) != 0)
+      return false;
   return true;
 }
 
@@ -44,7 +48,8 @@ bool same_saved(const Named& a, const Named& b, int n) {
 
 TEST_CASE("A collapsing column goes on to the bit from what a checkpoint holds") {
   const Words& overrides = GENERATE(0, 1) ? every_feature : small;
-  test::FlowRun straight("fpm_martin_moyce", overrides), first("fpm_martin_moyce", overrides), second("fpm_martin_moyce", overrides);
+  test::FlowRun straight("fpm_martin_moyce", overrides), first("fpm_martin_moyce", overrides),
+      second("fpm_martin_moyce", overrides);
   advance(straight.solver, 24);
   advance(first.solver, 11);
   take_up(first.solver, second.solver);

@@ -40,7 +40,8 @@ TEST_CASE("Still water stays still for 3 s from p = 0, on a lattice and on a jit
 }
 
 TEST_CASE("Still water without viscosity stays still for 10 s on jittered points", "[slow]") {
-  // Before velocities were smoothed at edges, waves of two spacings next to walls and surface grew e-fold in 0.12 s.
+  // Before velocities were smoothed at edges, waves of two spacings next to walls and surface grew e-fold in
+  // 0.12 s.
   const std::string disorder = GENERATE("water.disorder=0.2", "water.disorder=0.3");
   const Unrest rest = after(10, {disorder, "fluid.viscosity=0", "time.end=10"});
   CAPTURE(disorder);
@@ -48,16 +49,16 @@ TEST_CASE("Still water without viscosity stays still for 10 s on jittered points
   CHECK(rest.pressure <= 1e-9);
 }
 
-TEST_CASE("Still water is lost by both updates as printed, kept by the plain one with consistent walls", "[slow]") {
-  // The printed walls fix the slope of the pressure there: the incremental form cannot learn it, the plain one pushes water off them.
+TEST_CASE("Still water is lost by both updates as printed, kept by the plain one with consistent walls",
+          "[slow]") {
+  // The printed walls fix the slope of the pressure there: the incremental form cannot learn it, the plain
+  // one pushes water off them.
   const auto lost = [](const std::string& scheme, double pressure) {
     try {
       const Unrest rest = after(1, {"fpm.scheme=" + scheme});
       CAPTURE(scheme, rest.speed, rest.pressure);
       return rest.pressure > pressure && rest.speed > 1e-2;
-    } catch (const Diverged&) {
-      return true;
-    }
+    } catch (const Diverged&) { return true; }
   };
   CHECK(lost("incremental", 0.5));
   CHECK(lost("projection", 0.03));

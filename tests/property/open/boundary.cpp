@@ -1,4 +1,5 @@
-// Open boundaries: waves leave, imposed levels and waves enter, still water stays still, and the books balance.
+// Open boundaries: waves leave, imposed levels and waves enter, still water stays still, and the books
+// balance.
 #include <catch2/catch.hpp>
 
 #include "tests/support/run/scenes.hpp"
@@ -26,7 +27,9 @@ Scene channel(int dimension, const OpenLaw& law, const Series& level) {
 Scene with_pulse(Scene scene) {
   const auto depth = [](double x, double) { return 1 + amplitude * std::exp(-std::pow((x - start) / 2, 2)); };
   scene.water.depth = depth;
-  scene.water.velocity[0] = [depth](double x, double y) { return -2 * (std::sqrt(g * depth(x, y)) - celerity); };
+  scene.water.velocity[0] = [depth](double x, double y) {
+    return -2 * (std::sqrt(g * depth(x, y)) - celerity);
+  };
   return scene;
 }
 
@@ -82,8 +85,8 @@ TEST_CASE("open boundary: a pulse leaves through a wave boundary, less than 3 % 
   CAPTURE(dimension);
   const Reflection r = reflection(dimension, IncomingWave{});
   CHECK(r.before.highest > 0.9 * amplitude);
-  // Measured by the velocity of what runs to the right: the depth also keeps, at rest, what the stretched lattice's kernel
-  // sum is off (0.1 % of it in 2-D).
+  // Measured by the velocity of what runs to the right: the depth also keeps, at rest, what the stretched
+  // lattice's kernel sum is off (0.1 % of it in 2-D).
   CHECK(std::abs(r.after.right_going) < 0.03 * amplitude);
   CHECK(std::abs(r.after.left_going) < 0.03 * amplitude);
   CHECK(std::max(r.after.highest, -r.after.lowest) < 0.06 * amplitude);
@@ -93,10 +96,12 @@ TEST_CASE("open boundary: an imposed level sends a pulse back upside down") {
   const int dimension = GENERATE(1, 2);
   CAPTURE(dimension);
   const Reflection r = reflection(dimension, ImposedLevel{});
-  // The exact solution of a fixed level is -100 %; the scheme's own dissipation takes 1 % in the first two seconds.
+  // The exact solution of a fixed level is -100 %; the scheme's own dissipation takes 1 % in the first two
+  // seconds.
   CHECK(-r.after.lowest / r.before.highest == Approx(1).margin(0.1));
   CHECK(r.after.highest < 0.03 * amplitude);
-  CHECK(r.after.left_going / r.before.left_going == Approx(1).margin(0.1));  // u < 0 still: it runs right, upside down
+  CHECK(r.after.left_going / r.before.left_going ==
+        Approx(1).margin(0.1));  // u < 0 still: it runs right, upside down
 }
 
 namespace {
@@ -123,13 +128,16 @@ TEST_CASE("open boundary: a wave comes in with its own height") {
   constexpr double period = 4, x = 5;
   Flow flow(channel(dimension, law, sine(1, amplitude, period, 20)));
   double mean = 0, in_phase = 0, beside = 0;
-  for (int k = 0; k < 128; ++k) {  // two periods from 6 s on; the far wall answers after (40 + 35) m / c = 24 s
+  for (int k = 0; k < 128;
+       ++k) {  // two periods from 6 s on; the far wall answers after (40 + 35) m / c = 24 s
     flow.run(6 + 2 * period * k / 128);
     const double level = surface_at(flow, x), phase = 2 * std::acos(-1.0) * (flow.t - x / celerity) / period;
     mean += level / 128, in_phase += level * std::sin(phase) / 64, beside += level * std::cos(phase) / 64;
   }
-  CHECK(in_phase == Approx(amplitude).epsilon(0.05));  // the scheme's dissipation over 0.4 wavelengths is below 1 %
-  // The inner state is a mean over 2h = 0.24 m of fluid: the answer to it may be late by 0.08 s on both ways, 0.2 rad.
+  CHECK(in_phase ==
+        Approx(amplitude).epsilon(0.05));  // the scheme's dissipation over 0.4 wavelengths is below 1 %
+  // The inner state is a mean over 2h = 0.24 m of fluid: the answer to it may be late by 0.08 s on both ways,
+  // 0.2 rad.
   CHECK(std::abs(beside) < 0.2 * amplitude);
   // The bias of the kernel sum at the seam: 0.1 to 0.2 % (docs/formulas/swe.md (S6)).
   CHECK(mean == Approx(1).margin(2e-3));
@@ -189,7 +197,8 @@ void check_books(const Scene& scene, double end) {
   CHECK(std::abs(t.mass - initial - t.inflow + t.outflow) < 1e-12 * initial);
   CHECK(t.inflow > 0.01 * initial);
   CHECK(t.outflow > 0.01 * initial);
-  // The acceptance. What straddles the line is known to a quarter of a particle per row, so that the run must be long.
+  // The acceptance. What straddles the line is known to a quarter of a particle per row, so that the run must
+  // be long.
   CHECK(std::abs(t.inflow - t.outflow - t.straddle - t.flux) < 5e-3 * t.flux_gross);
 }
 
@@ -208,7 +217,8 @@ TEST_CASE("open boundary: counted water is the water that flowed", "[slow]") {
 TEST_CASE("open boundary: boundary particles keep their footprint and their buffer stays filled") {
   const int dimension = GENERATE(1, 2);
   CAPTURE(dimension);
-  Flow flow(channel(dimension, ImposedLevel{}, {{0, 2}, {1, 1.1}}));  // inflow only: none of them has been fluid
+  Flow flow(
+      channel(dimension, ImposedLevel{}, {{0, 2}, {1, 1.1}}));  // inflow only: none of them has been fluid
   const auto footprint = dimension == 2 ? dx * dx : dx;
   double smallest = 9, largest = 0;
   int fewest = 1000, most = 0;
@@ -224,8 +234,8 @@ TEST_CASE("open boundary: boundary particles keep their footprint and their buff
     fewest = std::min(fewest, count), most = std::max(most, count);
   });
   CHECK(flow.method->totals().inflow > 0.5 * (dimension == 2 ? 0.4 : 1));
-  CHECK(largest / smallest - 1 < 1e-12);          // mass and depth change together: one rounding per step
-  CHECK(largest == Approx(1).margin(3e-3));       // the depth may hold the bias of the lattice's kernel sum
+  CHECK(largest / smallest - 1 < 1e-12);     // mass and depth change together: one rounding per step
+  CHECK(largest == Approx(1).margin(3e-3));  // the depth may hold the bias of the lattice's kernel sum
   const int rows = dimension == 2 ? 4 : 1;
   CHECK(fewest >= 5 * rows);  // five columns, which are 2h at eta 1.2 and half a spacing more
   CHECK(most <= 6 * rows);

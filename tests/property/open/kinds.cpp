@@ -1,4 +1,5 @@
-// The kinds of open boundary in the solver: uniform flow, bores, supercritical flow, discharges, corners, openings, dry starts.
+// The kinds of open boundary in the solver: uniform flow, bores, supercritical flow, discharges, corners,
+// openings, dry starts.
 #include <catch2/catch.hpp>
 
 #include "tests/support/run/scenes.hpp"
@@ -81,7 +82,8 @@ TEST_CASE("open kinds: an imposed velocity or discharge drives the exact bore") 
   Scene scene = channel(dimension, 30, 1, 0);
   test::open_left(scene, law, {});
   test::impose_if_known(scene.boundaries[0], "velocity", constant(0.3));
-  test::impose_if_known(scene.boundaries[0], "discharge", constant(0.3 * 1.0980 * (dimension == 2 ? 0.6 : 1)));
+  test::impose_if_known(scene.boundaries[0], "discharge",
+                        constant(0.3 * 1.0980 * (dimension == 2 ? 0.6 : 1)));
   Flow flow(scene);
   flow.run(6);  // the bore is at 20 m
   const Spread u = of_fluid(flow, "u", 2, 14), depth = of_fluid(flow, "depth", 2, 14);
@@ -126,7 +128,8 @@ double difference(const Flow& a, const Flow& b, double from, double to) {
   for (double x = from; x <= to; x += 0.25) points.push_back({x, a.method->dimension() == 2 ? 0.3 : 0.0});
   const auto one = a.method->sample(points), two = b.method->sample(points);
   double most = 0;
-  for (std::size_t k = 0; k < points.size(); ++k) most = std::max(most, std::abs(one[k].depth - two[k].depth));
+  for (std::size_t k = 0; k < points.size(); ++k)
+    most = std::max(most, std::abs(one[k].depth - two[k].depth));
   return most;
 }
 
@@ -141,14 +144,18 @@ TEST_CASE("open kinds: a pulse leaves through a transmissive boundary") {
   const Scene still = scene;
   const auto depth = [](double x, double) { return 1 + pulse(x - 12); };
   scene.water.depth = depth;
-  scene.water.velocity[0] = [depth](double x, double) { return -2 * (std::sqrt(g * depth(x, 0)) - std::sqrt(g)); };
+  scene.water.velocity[0] = [depth](double x, double) {
+    return -2 * (std::sqrt(g * depth(x, 0)) - std::sqrt(g));
+  };
   Flow with(scene), without(still);
   with.run(8), without.run(8);  // gone after 4 s; what came back stands where it started
-  // A simple wave that leaves carries the still water's u + 2 c, so both kinds let it out exactly; 3 % as for 'wave', which has
-  // the same lag of the inner state, and as there the depth may keep twice that at rest.
+  // A simple wave that leaves carries the still water's u + 2 c, so both kinds let it out exactly; 3 % as for
+  // 'wave', which has the same lag of the inner state, and as there the depth may keep twice that at rest.
   CHECK(difference(with, without, 2, 30) < 0.06 * amplitude);
-  const double left = std::max(std::abs(of_fluid(with, "u", 2, 30).lowest), of_fluid(with, "u", 2, 30).highest);
-  const double noise = std::max(std::abs(of_fluid(without, "u", 2, 30).lowest), of_fluid(without, "u", 2, 30).highest);
+  const double left =
+      std::max(std::abs(of_fluid(with, "u", 2, 30).lowest), of_fluid(with, "u", 2, 30).highest);
+  const double noise =
+      std::max(std::abs(of_fluid(without, "u", 2, 30).lowest), of_fluid(without, "u", 2, 30).highest);
   CHECK(left - noise < 0.03 * amplitude * std::sqrt(g));
 }
 
@@ -179,7 +186,8 @@ TEST_CASE("open kinds: a withdrawal takes its volume") {
   flow.run(10);
   const Totals t = flow.method->totals();
   const double asked = (0.5 * 2 + 8) * 0.4 * width;  // m3
-  // The account's acceptance of 0.5 % (of the gross flux), of what was counted against what was asked and what flowed.
+  // The account's acceptance of 0.5 % (of the gross flux), of what was counted against what was asked and
+  // what flowed.
   const double counted = t.outflow - t.inflow + t.straddle;
   CHECK(counted == Approx(asked).epsilon(5e-3));
   CHECK(std::abs(counted + t.flux) < 5e-3 * t.flux_gross);
@@ -187,7 +195,8 @@ TEST_CASE("open kinds: a withdrawal takes its volume") {
 
 namespace {
 
-// A dry bed that falls away from an inlet on the left, walls elsewhere; triangular hydrograph of 1 m3/s over 20 s.
+// A dry bed that falls away from an inlet on the left, walls elsewhere; triangular hydrograph of 1 m3/s over
+// 20 s.
 Scene dry_start(int dimension, double boundary_spacing) {
   Scene scene = test::bare_scene(dimension, {0, 0}, {60, dimension == 2 ? 10.0 : 0.0}, 0.5);
   scene.bed.elevation = [](double x, double) { return -0.01 * x; };
@@ -227,7 +236,8 @@ TEST_CASE("open kinds: a discharge along a bent line is shared by its pieces") {
   scene.walls = {Wall{{{4, 0}, {10, 0}, {10, 10}, {0, 10}, {0, 4}}}};
   Flow flow(scene);
   const double initial = flow.method->totals().mass;
-  flow.run(30);  // what straddles the line is known to a quarter of a particle per row: 32 rows of 120 particles
+  flow.run(
+      30);  // what straddles the line is known to a quarter of a particle per row: 32 rows of 120 particles
   const Totals t = flow.method->totals();
   CHECK(t.flux == Approx(59).epsilon(5e-3));
   CHECK(t.inflow - t.outflow - t.straddle == Approx(59).epsilon(5e-3));
@@ -259,7 +269,8 @@ TEST_CASE("open kinds: still water between four boundaries stays still") {
   CAPTURE(name_of(law));
   Flow flow(open_square(law));
   flow.run(5);
-  // The corners are filled without gap or overlap: like still water at one line, which settles below 1e-3 m/s.
+  // The corners are filled without gap or overlap: like still water at one line, which settles below 1e-3
+  // m/s.
   CHECK(flow.largest_speed() < 1e-3);
   CHECK(of_fluid(flow, "depth").lowest > 0.998);
   CHECK(of_fluid(flow, "depth").highest < 1.002);
@@ -271,9 +282,11 @@ TEST_CASE("open kinds: a ring wave leaves through sides and corners") {
   Flow flow(scene);
   const double initial = flow.method->totals().mass;
   flow.run(8);  // the corners are 1.8 s away
-  // Characteristic in one direction: what meets the line at 45 degrees comes back with (1 - cos 45)/(1 + cos 45) = 17 % of its
-  // own height, which has fallen by then with the root of the distance (1/sqrt 4) and leaves on its next hits: below 5 %.
-  CHECK(std::max(of_fluid(flow, "depth").highest - 1, 1 - of_fluid(flow, "depth").lowest) < 0.05 * amplitude + 2e-3);
+  // Characteristic in one direction: what meets the line at 45 degrees comes back with (1 - cos 45)/(1 + cos
+  // 45) = 17 % of its own height, which has fallen by then with the root of the distance (1/sqrt 4) and
+  // leaves on its next hits: below 5 %.
+  CHECK(std::max(of_fluid(flow, "depth").highest - 1, 1 - of_fluid(flow, "depth").lowest) <
+        0.05 * amplitude + 2e-3);
   CHECK(flow.largest_speed() < 0.05 * amplitude * std::sqrt(g) + 1e-3);
   check_books(flow, initial);
 }

@@ -1,4 +1,5 @@
-// One particle far away changes no bit of the others: rows, bins, clusters and lists are fixed in space, not by who is there.
+// One particle far away changes no bit of the others: rows, bins, clusters and lists are fixed in space, not
+// by who is there.
 #include <catch2/catch.hpp>
 
 #include "tests/support/run/scenes.hpp"
@@ -8,10 +9,13 @@ using namespace freshet::test;
 
 namespace {
 
-// A drop that spreads in a wide dry domain, and in one cell far from it a little water, the last in the order of ids.
+// A drop that spreads in a wide dry domain, and in one cell far from it a little water, the last in the order
+// of ids.
 Scene drop_and_stray(int dimension, bool stray) {
-  Scene scene = bare_scene(dimension, {-2, dimension == 2 ? -2.0 : 0.0}, {9, dimension == 2 ? 9.0 : 0.0}, 0.05);
-  scene.sph.h_floor = scene.sph.h_cap = 1;  // else the stray's h outgrows its list, and all lists are made again: one more Newton step
+  Scene scene =
+      bare_scene(dimension, {-2, dimension == 2 ? -2.0 : 0.0}, {9, dimension == 2 ? 9.0 : 0.0}, 0.05);
+  scene.sph.h_floor = scene.sph.h_cap =
+      1;  // else the stray's h outgrows its list, and all lists are made again: one more Newton step
   scene.water.wet_above = 0.05;
   scene.water.depth = [stray](double x, double y) {
     const double far = std::max(std::abs(x - 8.025), y != 0 ? std::abs(y - 8.025) : 0.0);

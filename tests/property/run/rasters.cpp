@@ -8,8 +8,8 @@
 
 #include "src/run/driver.hpp"
 #include "src/run/record/rasters.hpp"
-#include "tests/support/watch/recording.hpp"
 #include "tests/support/run/scenes.hpp"
+#include "tests/support/watch/recording.hpp"
 #include "tests/support/watch/scratch.hpp"
 
 using namespace freshet;
@@ -69,7 +69,8 @@ Grid read_grid(const std::string& path) {
   std::ifstream in(path);
   Grid grid;
   std::string word;
-  in >> word >> grid.nx >> word >> grid.ny >> word >> grid.x >> word >> grid.y >> word >> grid.cell >> word >> grid.none;
+  in >> word >> grid.nx >> word >> grid.ny >> word >> grid.x >> word >> grid.y >> word >> grid.cell >> word >>
+      grid.none;
   for (double v; in >> v;) grid.value.push_back(v);
   return grid;
 }
@@ -77,7 +78,8 @@ Grid read_grid(const std::string& path) {
 }  // namespace
 
 TEST_CASE("rasters: the sums at a cell are those over all particles") {
-  const double cell = GENERATE(0.021, 0.07);  // finer and coarser than the particles; rows that end within a pack
+  const double cell =
+      GENERATE(0.021, 0.07);  // finer and coarser than the particles; rows that end within a pack
   Flow flow(drop());
   flow.many_steps(15);
   const CellGrid grid = square_grid({2, {-1.3, -1.2}, {1.4, 1.1}}, cell);
@@ -104,8 +106,10 @@ TEST_CASE("rasters: a uniform depth and velocity come back to the last cell at t
       const int k = j * grid.nx + i;
       const bool inside = grid.x(i) > 0 && grid.x(i) < 1.2 && grid.y(j) > 0 && grid.y(j) < 0.8;
       CAPTURE(grid.x(i), grid.y(j));
-      // At a straight edge half of the kernel is covered; a corner's cell is inside with a quarter of it and a little more.
-      const bool corner = std::min(grid.x(i), 1.2 - grid.x(i)) < 0.07 && std::min(grid.y(j), 0.8 - grid.y(j)) < 0.07;
+      // At a straight edge half of the kernel is covered; a corner's cell is inside with a quarter of it and
+      // a little more.
+      const bool corner =
+          std::min(grid.x(i), 1.2 - grid.x(i)) < 0.07 && std::min(grid.y(j), 0.8 - grid.y(j)) < 0.07;
       if (!corner) CHECK((sums.cover(k) >= edge_cover) == inside);
       if (sums.cover(k) < edge_cover) continue;
       // The density of the lattice is 2.4e-4 low (docs/formulas/swe.md (S6)), images at the walls make it so
@@ -121,7 +125,8 @@ TEST_CASE("rasters: boundary particles are no water") {
   test::open_left(scene, IncomingWave{}, {{0}, {0.4}});
   const Flow flow(scene);
   REQUIRE(std::as_const(*flow.method).fields().has("kind"));
-  const CellGrid grid = square_grid({2, {-0.3, 0}, {-0.1, 0.8}}, 0.05);  // over the buffer, a kernel away from the water
+  const CellGrid grid =
+      square_grid({2, {-0.3, 0}, {-0.1, 0.8}}, 0.05);  // over the buffer, a kernel away from the water
   const CoverFields sums = cover_cells(grid, *flow.method);
   for (int k = 0; k < grid.size(); ++k) CHECK(sums.cover(k) < 1e-3);
 }
@@ -130,14 +135,16 @@ TEST_CASE("rasters: maxima are the largest of what every step shows") {
   Flow flow(drop());
   const CellGrid grid = square_grid({2, {-1, -1}, {1, 1}}, 0.06);
   const Maxima maxima(grid.size(), 0.02);
-  std::vector<double> depth(static_cast<std::size_t>(grid.size())), speed = depth, product = depth, arrival(depth.size(), -1), last = arrival;
+  std::vector<double> depth(static_cast<std::size_t>(grid.size())), speed = depth, product = depth,
+                                                                    arrival(depth.size(), -1), last = arrival;
   for (int n = 0; n < 25; ++n) {
     flow.many_steps(1);
     const Front front = track_maxima(grid, *flow.method, flow.t, maxima);
     const CoverFields sums = cover_cells(grid, *flow.method);
     int wet = 0;
     for (std::size_t k = 0; k < depth.size(); ++k) {
-      const double cover = sums.cover(k), d = sums.depth(k) / cover, s = std::hypot(sums.u(k), sums.v(k)) / cover;
+      const double cover = sums.cover(k), d = sums.depth(k) / cover,
+                   s = std::hypot(sums.u(k), sums.v(k)) / cover;
       if (cover < edge_cover) continue;
       depth[k] = std::max(depth[k], d);
       if (d <= 0.02) continue;
@@ -182,9 +189,12 @@ TEST_CASE("rasters: the files hold the water's volume, its levels and its maxima
   Driver driver(scene, *method, {scratch.path()});
   driver.begin();
   driver.run();
-  const Grid depth = read_grid(scratch / "rasters/depth_0000.asc"), surface = read_grid(scratch / "rasters/surface_0000.asc");
-  const Grid most = read_grid(scratch / "rasters/max_depth.asc"), later = read_grid(scratch / "rasters/depth_0001.asc");
-  REQUIRE((depth.nx == 30 && depth.ny == 20 && depth.cell == 0.04 && depth.x == 0 && depth.y == 0 && depth.none == -9999));
+  const Grid depth = read_grid(scratch / "rasters/depth_0000.asc"),
+             surface = read_grid(scratch / "rasters/surface_0000.asc");
+  const Grid most = read_grid(scratch / "rasters/max_depth.asc"),
+             later = read_grid(scratch / "rasters/depth_0001.asc");
+  REQUIRE((depth.nx == 30 && depth.ny == 20 && depth.cell == 0.04 && depth.x == 0 && depth.y == 0 &&
+           depth.none == -9999));
   double volume = 0, worst = 0;
   int blank = 0;
   for (int j = 0; j < 20; ++j)
@@ -202,7 +212,8 @@ TEST_CASE("rasters: the files hold the water's volume, its levels and its maxima
   CHECK_FALSE(std::filesystem::exists(scratch / "rasters/u_0000.asc"));
 }
 
-TEST_CASE("rasters: who does not ask gets no launch, no storage and no folder, maxima cost one launch a step") {
+TEST_CASE(
+    "rasters: who does not ask gets no launch, no storage and no folder, maxima cost one launch a step") {
   const test::Scratch scratch;
   Scene scene = drop();
   scene.end_time = 0.05;

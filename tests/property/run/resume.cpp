@@ -120,8 +120,8 @@ void require_same_results(const test::Scratch& a, const test::Scratch& b) {
     const auto of = [&](const test::Scratch& s) {
       return read_particle_step(s / "particles.h5part", step.step);
     };
-    CHECK(
-        (of(a)["x"] == of(b)["x"] && of(a)["depth"] == of(b)["depth"] && of(a)["v_0"] == of(b)["v_0"] && of(a)["id"] == of(b)["id"]));
+    CHECK((of(a)["x"] == of(b)["x"] && of(a)["depth"] == of(b)["depth"] && of(a)["v_0"] == of(b)["v_0"] &&
+           of(a)["id"] == of(b)["id"]));
   }
 }
 
@@ -161,7 +161,8 @@ TEST_CASE("every observer resumes, and asks for what it saved") {
     without.run.erase(one.first);
     // As an older version would have left it: an error that says so, not one of the program.
     CHECK_THROWS_AS(restore(without), IoError);
-    CHECK_THROWS_WITH(restore(without), Catch::Contains("state.h5") && Catch::Contains("another version of the program wrote it"));
+    CHECK_THROWS_WITH(restore(without), Catch::Contains("state.h5") &&
+                                            Catch::Contains("another version of the program wrote it"));
   }
 }
 
@@ -189,9 +190,11 @@ TEST_CASE("a wet dam break resumes to the bit") {
 }
 
 TEST_CASE("semi-implicit runs resume to the bit") {
-  const Scene wet = read_scene("cases/sisph_bump.toml", {"water.spacing=0.04", "water.disorder=0.2", "time.end=0.03"});
+  const Scene wet =
+      read_scene("cases/sisph_bump.toml", {"water.spacing=0.04", "water.disorder=0.2", "time.end=0.03"});
   check_pieces(wet, make_method, GENERATE(5, 13));
-  const Scene drying = read_scene("cases/thacker.toml", {"scene.method=sisph", "water.spacing=250", "time.end=300"});
+  const Scene drying =
+      read_scene("cases/thacker.toml", {"scene.method=sisph", "water.spacing=250", "time.end=300"});
   check_pieces(drying, make_method, 4);
   const Scene walled = read_scene("cases/sisph_seiche.toml", {"time.end=0.2"});
   check_pieces(walled, make_method, 7);
@@ -201,15 +204,16 @@ TEST_CASE("semi-implicit runs resume to the bit") {
 
 TEST_CASE("semi-implicit runs whose particles move resume to the bit") {
   const std::string paths = GENERATE("theta", "rk3", "leap-frog");
-  const Scene walled = read_scene("cases/sisph_seiche.toml", {"sisph.formulation=moving", "sisph.paths=" + paths, "water.depth=1+0.1*cos(pi*x)",
-                                                              "time.end=0.2", "bed.z=0.1*sin(3*x)"});
+  const Scene walled = read_scene("cases/sisph_seiche.toml",
+                                  {"sisph.formulation=moving", "sisph.paths=" + paths,
+                                   "water.depth=1+0.1*cos(pi*x)", "time.end=0.2", "bed.z=0.1*sin(3*x)"});
   check_pieces(walled, make_method, 3);
 }
 
 TEST_CASE("a dam break that splits and merges resumes to the bit") {
   const Scene scene = read_scene("cases/dam_break_dry_strip.toml",
-                                 {"water.spacing=20", "time.end=24", "split.area=1.5", "split.velocity=linear",
-                                  "merge.area=0.35", "output.every=5"});
+                                 {"water.spacing=20", "time.end=24", "split.area=1.5",
+                                  "split.velocity=linear", "merge.area=0.35", "output.every=5"});
   const auto method = make_method(scene);
   for (double t = 0; t < 24;) {
     const double dt = method->stable_dt();

@@ -33,8 +33,8 @@ TEST_CASE("the rate of change is that of the particles' own depths") {
   double sum = 0;
   for (std::size_t k = 0; k < before.size(); ++k) sum += std::pow(1 - before[k] / after[k], 2);
   const Steadiness steady = watch.result(*flow.method, {0, 0, dt});
-  // Newton's tolerance of 1e-5 on depths that change by 1e-6 in the step would hide the difference were it not for the
-  // extrapolation, which starts each solution within a hundredth of that.
+  // Newton's tolerance of 1e-5 on depths that change by 1e-6 in the step would hide the difference were it
+  // not for the extrapolation, which starts each solution within a hundredth of that.
   CHECK(steady.thesis_ls == Approx(std::sqrt(sum)).epsilon(0.02));
   CHECK(steady.rate == Approx(std::sqrt(sum / 100) / dt).epsilon(0.02));  // 100 particles
 }
@@ -55,8 +55,10 @@ TEST_CASE("the largest speed is that over all steps, relative to the first depth
   SteadinessWatch restored(scene);
   restored.restore(values, {});
   const Steadiness steady = restored.result(*flow.method, {0, 0, 1});
-  CHECK(steady.end_speed_rel * fastest == Approx(steady.max_speed_rel * flow.largest_speed()));  // the same celerity
-  const double deepest = 1.1;  // m, at the wall less half a spacing; the lattice sum at eta = 1 is exact to the slope's curvature
+  CHECK(steady.end_speed_rel * fastest ==
+        Approx(steady.max_speed_rel * flow.largest_speed()));  // the same celerity
+  const double deepest = 1.1;  // m, at the wall less half a spacing; the lattice sum at eta = 1 is exact to
+                               // the slope's curvature
   CHECK(steady.max_speed_rel == Approx(fastest / std::sqrt(9.81 * deepest)).epsilon(5e-3));
 }
 

@@ -1,8 +1,8 @@
 // SISPH: still water over a rough bed with dry islands, conservation, what a step launches and allocates.
 #include <catch2/catch.hpp>
 
-#include "tests/support/watch/recording.hpp"
 #include "tests/support/run/scenes.hpp"
+#include "tests/support/watch/recording.hpp"
 
 using namespace freshet;
 using test::Flow;
@@ -17,7 +17,9 @@ Scene sisph_scene(int dimension, const freshet::Point& low, const freshet::Point
 }
 
 // Hills and hollows of a few cells; some hills are dry.
-double rough(double x, double y) { return -0.5 + 0.6 * std::sin(11 * x) * std::cos(9 * y) + 0.2 * std::sin(29 * x + 17 * y); }
+double rough(double x, double y) {
+  return -0.5 + 0.6 * std::sin(11 * x) * std::cos(9 * y) + 0.2 * std::sin(29 * x + 17 * y);
+}
 
 Scene islands(double disorder) {
   Scene scene = sisph_scene(2, {0, 0}, {1.2, 1.2}, 0.04);
@@ -124,7 +126,8 @@ TEST_CASE("sisph: a step launches its own passes and allocates nothing") {
   const auto labels = recording.labels();
   for (const auto& label : labels) {
     CAPTURE(label);
-    CHECK((label.substr(0, 7) == "sisph::" || label.substr(0, 4) == "cg::" || label.substr(0, 8) == "linear::"));
+    CHECK((label.substr(0, 7) == "sisph::" || label.substr(0, 4) == "cg::" ||
+           label.substr(0, 8) == "linear::"));
   }
   CHECK(labels.count("sisph::advect") == (dry ? 1 : 0));
   CHECK(labels.count("sisph::trace") == (dry ? 0 : 1));
@@ -136,7 +139,8 @@ TEST_CASE("sisph: large steps have the particle mesh, and resuming goes on with 
   Flow flow(scene), resumed(scene);
   flow.many_steps(3);
   REQUIRE(flow.method->scalars().at("mesh")[0] == 1);
-  for (const auto& f : std::as_const(*flow.method).fields().reals()) Kokkos::deep_copy(resumed.real(f.name.c_str()), f.data);
+  for (const auto& f : std::as_const(*flow.method).fields().reals())
+    Kokkos::deep_copy(resumed.real(f.name.c_str()), f.data);
   resumed.method->restore(flow.method->scalars());
   flow.step(0.5);
   resumed.step(0.5);

@@ -31,7 +31,9 @@ TEST_CASE("sisph recomputed: a hump between walls on disordered particles") {
   Scene scene = test::bare_scene(2, {0, 0}, {2, 2}, 0.05);
   test::close_box(scene);
   scene.water.disorder = 0.2;
-  scene.water.depth = [](double x, double y) { return 1 + 0.2 * std::exp(-20 * ((x - 0.8) * (x - 0.8) + (y - 1) * (y - 1))); };
+  scene.water.depth = [](double x, double y) {
+    return 1 + 0.2 * std::exp(-20 * ((x - 0.8) * (x - 0.8) + (y - 1) * (y - 1)));
+  };
   CHECK(largest_difference(scene, 0.05, 20) <= 1e-11);
 }
 

@@ -1,8 +1,9 @@
-// SISPH with particles that move: still water, mass to the bit, the same in every uniform motion, what a step launches.
+// SISPH with particles that move: still water, mass to the bit, the same in every uniform motion, what a step
+// launches.
 #include <catch2/catch.hpp>
 
-#include "tests/support/watch/recording.hpp"
 #include "tests/support/run/sisph_cases.hpp"
+#include "tests/support/watch/recording.hpp"
 
 using namespace freshet;
 using test::Flow;
@@ -23,7 +24,9 @@ Scene walled_pool() {
   Scene scene = moving_scene(2, {0, 0}, {1, 1}, 0.05);
   test::close_box(scene);
   scene.water.disorder = 0.2;
-  scene.water.depth = [](double x, double y) { return 1 + 0.1 * std::cos(3.14159265 * x) * std::cos(3.14159265 * y); };
+  scene.water.depth = [](double x, double y) {
+    return 1 + 0.1 * std::cos(3.14159265 * x) * std::cos(3.14159265 * y);
+  };
   return scene;
 }
 
@@ -32,13 +35,16 @@ Scene walled_pool() {
 TEST_CASE("sisph moving: still water over a rough bed stays still") {
   Scene scene = moving_scene(2, {0, 0}, {1.2, 1.2}, 0.04);
   test::close_box(scene);
-  scene.bed.elevation = [](double x, double y) { return -0.9 + 0.3 * std::sin(11 * x) * std::cos(9 * y) + 0.2 * std::sin(29 * x + 17 * y); };
+  scene.bed.elevation = [](double x, double y) {
+    return -0.9 + 0.3 * std::sin(11 * x) * std::cos(9 * y) + 0.2 * std::sin(29 * x + 17 * y);
+  };
   scene.water.surface = [](double, double) { return 0.0; };
   scene.water.disorder = 0.2;
   Flow flow(scene);
   const std::vector<double> x = flow.by_id("x");
   for (int n = 0; n < 200; ++n) flow.step(0.02);
-  CHECK(flow.largest_speed() < 1e-12);  // the gradient of a level surface is round-off over dx; it does not grow
+  CHECK(flow.largest_speed() <
+        1e-12);  // the gradient of a level surface is round-off over dx; it does not grow
   CHECK(test::largest_difference(flow.by_id("x"), x) < 1e-12);
 }
 
@@ -82,11 +88,13 @@ TEST_CASE("sisph moving: a step launches its own passes and allocates nothing") 
   const auto labels = recording.labels();
   for (const auto& label : labels) {
     CAPTURE(label);
-    CHECK((label.substr(0, 7) == "sisph::" || label.substr(0, 4) == "cg::" || label.substr(0, 8) == "linear::" ||
-           label.substr(0, 10) == "cellgrid::"));
+    CHECK((label.substr(0, 7) == "sisph::" || label.substr(0, 4) == "cg::" ||
+           label.substr(0, 8) == "linear::" || label.substr(0, 10) == "cellgrid::"));
   }
   CHECK(labels.count("sisph::place_midway") == 1);
-  for (const char* foreign : {"sisph::coefficients", "sisph::advect", "sisph::trace", "sisph::rise_of_bed", "sisph::reflect"}) CHECK(labels.count(foreign) == 0);
+  for (const char* foreign :
+       {"sisph::coefficients", "sisph::advect", "sisph::trace", "sisph::rise_of_bed", "sisph::reflect"})
+    CHECK(labels.count(foreign) == 0);
 }
 
 TEST_CASE("sisph moving: between walls a step allocates nothing either") {
@@ -105,13 +113,15 @@ TEST_CASE("sisph moving: particles at rest launch nothing of it") {
   const test::Recording recording;
   flow.many_steps(2);
   const auto labels = recording.labels();
-  for (const char* foreign : {"sisph::place_midway", "sisph::increment", "sisph::jump", "cellgrid::place"}) CHECK(labels.count(foreign) == 0);
+  for (const char* foreign : {"sisph::place_midway", "sisph::increment", "sisph::jump", "cellgrid::place"})
+    CHECK(labels.count(foreign) == 0);
   CHECK_FALSE(flow.method->fields().has("u_before"));
 }
 
 TEST_CASE("sisph moving: what needs the step to be short keeps it short") {
   Scene scene = hump();
-  scene.water.velocity = {[](double x, double) { return x > 0 ? 0.5 : -0.5; }, [](double, double) { return 0.0; }};
+  scene.water.velocity = {[](double x, double) { return x > 0 ? 0.5 : -0.5; },
+                          [](double, double) { return 0.0; }};
   scene.water.disorder = 0;
   scene.sisph.courant = 100;
   Flow flow(scene);
@@ -121,11 +131,14 @@ TEST_CASE("sisph moving: what needs the step to be short keeps it short") {
 TEST_CASE("sisph moving: large steps have the particle mesh, and resuming goes on with it") {
   Scene scene = hump();
   scene.sisph.courant = 50;
-  scene.water.depth = [](double x, double y) { return 1 + 0.01 * std::exp(-50 * (x * x + y * y)); };  // so low that nothing else bounds the step
+  scene.water.depth = [](double x, double y) {
+    return 1 + 0.01 * std::exp(-50 * (x * x + y * y));
+  };  // so low that nothing else bounds the step
   Flow flow(scene), resumed(scene);
   flow.many_steps(3);
   REQUIRE(flow.method->scalars().at("moving")[2] == 1);
-  for (const auto& f : std::as_const(*flow.method).fields().reals()) Kokkos::deep_copy(resumed.real(f.name.c_str()), f.data);
+  for (const auto& f : std::as_const(*flow.method).fields().reals())
+    Kokkos::deep_copy(resumed.real(f.name.c_str()), f.data);
   for (const auto& f : std::as_const(*flow.method).fields().integers())
     Kokkos::deep_copy(std::as_const(*resumed.method).fields().integer(f.name), f.data);
   resumed.method->restore(flow.method->scalars());
@@ -137,5 +150,6 @@ TEST_CASE("sisph moving: large steps have the particle mesh, and resuming goes o
 TEST_CASE("sisph moving: dry land is refused") {
   Scene scene = moving_scene(1, {0, 0}, {1, 0}, 0.1);
   scene.water.depth = [](double x, double) { return x - 0.5; };
-  CHECK_THROWS_WITH(make_method(scene), Catch::Contains("needs water everywhere") && Catch::Contains("at-rest"));
+  CHECK_THROWS_WITH(make_method(scene),
+                    Catch::Contains("needs water everywhere") && Catch::Contains("at-rest"));
 }

@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 
 #include "src/errors.hpp"
-#include "tests/support/watch/recording.hpp"
 #include "tests/support/run/sisph_cases.hpp"
+#include "tests/support/watch/recording.hpp"
 
 using namespace freshet;
 using test::Flow;
@@ -14,7 +14,9 @@ namespace {
 // A hump in still water, open all around.
 Scene hump(double amplitude) {
   Scene scene = moving_scene(2, {-1, -1}, {1, 1}, 0.05);
-  scene.water.depth = [amplitude](double x, double y) { return 1 + amplitude * std::exp(-50 * (x * x + y * y)); };
+  scene.water.depth = [amplitude](double x, double y) {
+    return 1 + amplitude * std::exp(-50 * (x * x + y * y));
+  };
   return scene;
 }
 
@@ -28,7 +30,8 @@ double highest(const Flow& flow) {
 
 TEST_CASE("sisph moving: large steps are stable, on a lattice and in disorder", "[slow]") {
   constexpr double amplitude = 0.01;
-  const double disorder = GENERATE(0.0, 0.2), theta = GENERATE(0.5, 0.55, 1.0), courant = GENERATE(5.0, 10.0, 20.0, 50.0);
+  const double disorder = GENERATE(0.0, 0.2), theta = GENERATE(0.5, 0.55, 1.0),
+               courant = GENERATE(5.0, 10.0, 20.0, 50.0);
   Scene scene = hump(amplitude);
   scene.water.disorder = disorder;
   scene.sisph.theta = theta;
@@ -51,7 +54,8 @@ TEST_CASE("sisph moving: velocities that do not part, pair or turn particles sta
   scene.gravity = 1e-12;
   scene.water.disorder = 0.2;
   scene.water.depth = [](double, double) { return 1.0; };
-  scene.water.velocity = {[](double x, double y) { return 0.3 * x - 0.2 * y; }, [](double x, double y) { return 0.1 * x + 0.4 * y; }};
+  scene.water.velocity = {[](double x, double y) { return 0.3 * x - 0.2 * y; },
+                          [](double x, double y) { return 0.1 * x + 0.4 * y; }};
   Flow flow(scene);
   const std::vector<double> x = flow.by_id("x"), u = flow.by_id("u"), y = flow.by_id("y");
   flow.step(0.01);
@@ -96,7 +100,8 @@ TEST_CASE("sisph moving: friction slows water down as dv/dt = -g n^2 |v| v / H^(
   for (const int dimension : {1, 2}) {
     Scene scene = moving_scene(dimension, {-1, -1}, {1, 1}, 0.1);
     scene.water.depth = [](double, double) { return 0.5; };
-    scene.water.velocity = {[](double, double) { return 1.2; }, [dimension](double, double) { return dimension == 2 ? -0.5 : 0.0; }};
+    scene.water.velocity = {[](double, double) { return 1.2; },
+                            [dimension](double, double) { return dimension == 2 ? -0.5 : 0.0; }};
     scene.manning = Manning(0.1);
     Flow flow(scene);
     const double speed = dimension == 2 ? 1.3 : 1.2, k = 9.81 * 0.01 / std::pow(0.5, 4.0 / 3);

@@ -1,5 +1,6 @@
-// SISPH: what a shore does must not hang on rounding. Thacker's planar bowl with cells of 100 m, twice, the second with a bed that differs by
-// 1e-12 of itself. With depths between particles that jump where one falls dry, films of 0.06 m differed after one step.
+// SISPH: what a shore does must not hang on rounding. Thacker's planar bowl with cells of 100 m, twice, the
+// second with a bed that differs by 1e-12 of itself. With depths between particles that jump where one falls
+// dry, films of 0.06 m differed after one step.
 #include <catch2/catch.hpp>
 
 #include "tests/support/run/scenes.hpp"
@@ -20,8 +21,11 @@ Scene bowl(double disorder, double changed) {
   };
   scene.bed.elevation = bed;
   scene.water.surface = [](double x, double) { return depth * aside / (radius * radius) * (2 * x - aside); };
-  scene.water.depth = [bed](double x, double y) { return depth * aside / (radius * radius) * (2 * x - aside) - bed(x, y); };
-  scene.water.velocity = {[](double, double) { return 0.0; }, [](double, double) { return aside / radius * std::sqrt(2 * gravity * depth); }};
+  scene.water.depth = [bed](double x, double y) {
+    return depth * aside / (radius * radius) * (2 * x - aside) - bed(x, y);
+  };
+  scene.water.velocity = {[](double, double) { return 0.0; },
+                          [](double, double) { return aside / radius * std::sqrt(2 * gravity * depth); }};
   scene.water.disorder = disorder;
   return scene;
 }

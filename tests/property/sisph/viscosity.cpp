@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "tests/support/watch/recording.hpp"
 #include "tests/support/run/scenes.hpp"
+#include "tests/support/watch/recording.hpp"
 
 using namespace freshet;
 using test::Flow;
@@ -34,8 +34,8 @@ Scene channel(double spacing, bool slip, const Function& along) {
   return scene;
 }
 
-// Largest error of the velocity over the fastest, steady under gravity down a slope against the drag of both walls: the water between
-// the ends starts at rest.
+// Largest error of the velocity over the fastest, steady under gravity down a slope against the drag of both
+// walls: the water between the ends starts at rest.
 double profile_error(double spacing, const std::string& momentum, double disorder) {
   const auto along = [](double x, double y) { return x > 0 && x < width ? 0.0 : parabola(y); };
   Scene scene = channel(spacing, false, along);
@@ -49,22 +49,31 @@ double profile_error(double spacing, const std::string& momentum, double disorde
   const auto kind = std::as_const(*flow.method).fields().integer("kind");
   double worst = 0;
   for (int i = 0; i < flow.size(); ++i)
-    if (kind(i) == 0) worst = std::max(worst, std::hypot(flow.real("u")(i) - parabola(flow.real("y")(i)), flow.real("v")(i)) / fastest);
+    if (kind(i) == 0)
+      worst = std::max(
+          worst, std::hypot(flow.real("u")(i) - parabola(flow.real("y")(i)), flow.real("v")(i)) / fastest);
   return worst;
 }
 
-// Water that turns in a circular tank, J1(k r) with k R the first zero: its kinetic energy decays with exp(-2 nu k^2 t).
+// Water that turns in a circular tank, J1(k r) with k R the first zero: its kinetic energy decays with exp(-2
+// nu k^2 t).
 double decay_error(double spacing, double disorder) {
   constexpr double radius = 0.5, k = 3.8317059702075123 / radius, pi = 3.14159265358979323846;
   Scene scene = viscous_scene({-0.6, -0.6}, {0.6, 0.6}, spacing, false);
   Wall wall;
-  for (int n = 0; n <= 400; ++n) wall.line.push_back({radius * std::cos(2 * pi * (n % 400) / 400), radius * std::sin(2 * pi * (n % 400) / 400)});
+  for (int n = 0; n <= 400; ++n)
+    wall.line.push_back(
+        {radius * std::cos(2 * pi * (n % 400) / 400), radius * std::sin(2 * pi * (n % 400) / 400)});
   scene.walls = {wall};
   scene.water.disorder = disorder;
-  const auto swirl = [](double x, double y) { return fastest * std::cyl_bessel_j(1.0, k * std::hypot(x, y)) / (std::hypot(x, y) + 1e-12); };
-  scene.water.velocity = {[swirl](double x, double y) { return -y * swirl(x, y); }, [swirl](double x, double y) { return x * swirl(x, y); }};
+  const auto swirl = [](double x, double y) {
+    return fastest * std::cyl_bessel_j(1.0, k * std::hypot(x, y)) / (std::hypot(x, y) + 1e-12);
+  };
+  scene.water.velocity = {[swirl](double x, double y) { return -y * swirl(x, y); },
+                          [swirl](double x, double y) { return x * swirl(x, y); }};
   scene.sisph.momentum = test::pick(sisph::momentum_forms(), "semi-lagrangian");
-  scene.sisph.courant = 0.5;  // viscosity is of first order in time: nu k^2 dt / 2 = 0.6 % at the finer spacing
+  scene.sisph.courant =
+      0.5;  // viscosity is of first order in time: nu k^2 dt / 2 = 0.6 % at the finer spacing
   Flow flow(scene);
   flow.run(0.05);  // waves of the start leave the swirl alone
   const double start = flow.method->mechanics().kinetic, time = flow.t;
@@ -74,7 +83,8 @@ double decay_error(double spacing, double disorder) {
 
 }  // namespace
 
-TEST_CASE("sisph viscosity: water on a slope between walls that hold it takes the parabolic profile", "[slow]") {
+TEST_CASE("sisph viscosity: water on a slope between walls that hold it takes the parabolic profile",
+          "[slow]") {
   const std::string momentum = GENERATE("semi-lagrangian", "mass-flux");
   const double coarse = profile_error(0.1, momentum, 0), fine = profile_error(0.05, momentum, 0);
   CAPTURE(momentum, coarse, fine);
@@ -88,7 +98,8 @@ TEST_CASE("sisph viscosity: the profile on particles moved by 0.2 dx") {
   CHECK(error < 0.05);
 }
 
-TEST_CASE("sisph viscosity: a uniform current slides along walls that slip and is held by those that do not") {
+TEST_CASE(
+    "sisph viscosity: a uniform current slides along walls that slip and is held by those that do not") {
   const auto speed = [](bool slip) {
     Flow flow(channel(0.1, slip, [](double, double) { return fastest; }));
     flow.run(2);
@@ -101,7 +112,8 @@ TEST_CASE("sisph viscosity: a uniform current slides along walls that slip and i
 }
 
 TEST_CASE("sisph viscosity: a swirl in a round tank that holds it decays at Bessel's rate") {
-  const double coarse = decay_error(0.05, 0), fine = decay_error(0.025, 0), disordered = decay_error(0.025, 0.2);
+  const double coarse = decay_error(0.05, 0), fine = decay_error(0.025, 0),
+               disordered = decay_error(0.025, 0.2);
   CAPTURE(coarse, fine, disordered);
   CHECK(std::abs(fine) < 0.02);
   CHECK(std::abs(disordered) < 0.02);

@@ -15,7 +15,8 @@ Scene free_drop() {
   Scene scene = test::bare_scene(2, {-1, -1}, {1, 1}, 0.05);
   scene.water.depth = [](double x, double y) { return 0.5 - x * x - 0.7 * y * y; };
   scene.water.wet_above = 0.02;
-  scene.water.velocity = {[](double x, double y) { return 0.4 + 0.3 * x - y; }, [](double x, double y) { return -0.1 + x + 0.2 * y; }};
+  scene.water.velocity = {[](double x, double y) { return 0.4 + 0.3 * x - y; },
+                          [](double x, double y) { return -0.1 + x + 0.2 * y; }};
   return scene;
 }
 
@@ -28,7 +29,8 @@ double momentum_size(const Flow& flow) {
   return test::sum(flow, [&](int i) { return m(i) * std::abs(u(i)); });
 }
 double angular_momentum(const Flow& flow) {
-  const auto m = flow.real("mass"), x = flow.real("x"), y = flow.real("y"), u = flow.real("u"), v = flow.real("v");
+  const auto m = flow.real("mass"), x = flow.real("x"), y = flow.real("y"), u = flow.real("u"),
+             v = flow.real("v");
   return test::sum(flow, [&](int i) { return m(i) * (x(i) * v(i) - y(i) * u(i)); });
 }
 
@@ -36,15 +38,16 @@ double angular_momentum(const Flow& flow) {
 
 TEST_CASE("conservation: mass exactly, momentum and angular momentum of a free drop to round-off") {
   Scene scene = free_drop();
-  scene.sph.stabilisation =
-      GENERATE(as<swe::AnyStabilisation>{}, swe::NoStabilisation{}, swe::LaxFriedrichs{}, swe::LaxFriedrichsMuscl{});
+  scene.sph.stabilisation = GENERATE(as<swe::AnyStabilisation>{}, swe::NoStabilisation{},
+                                     swe::LaxFriedrichs{}, swe::LaxFriedrichsMuscl{});
   Flow flow(scene);
   const auto mass = flow.by_id("mass");
   const double px = momentum(flow, "u"), py = momentum(flow, "v"), turn = angular_momentum(flow);
   flow.many_steps(150);
   CHECK((flow.by_id("mass") == mass));
   CHECK(flow.method->totals().mass == Approx(std::accumulate(mass.begin(), mass.end(), 0.0)).epsilon(1e-14));
-  // Pairs cancel to one rounding each: 150 steps x 1e-16 x the sum of the pair forces' impulses, some ten times m v.
+  // Pairs cancel to one rounding each: 150 steps x 1e-16 x the sum of the pair forces' impulses, some ten
+  // times m v.
   CHECK(std::abs(momentum(flow, "u") - px) < 1e-12 * momentum_size(flow));
   CHECK(std::abs(momentum(flow, "v") - py) < 1e-12 * momentum_size(flow));
   CHECK(std::abs(angular_momentum(flow) - turn) < 1e-12 * std::abs(turn));
@@ -53,7 +56,8 @@ TEST_CASE("conservation: mass exactly, momentum and angular momentum of a free d
 
 namespace {
 
-// A drop that sloshes in a bowl, without stabilisation: classical acceleration, E = sum m (v^2/2 + g d/2 + g b).
+// A drop that sloshes in a bowl, without stabilisation: classical acceleration, E = sum m (v^2/2 + g d/2 + g
+// b).
 Scene slosh() {
   Scene scene = test::bare_scene(2, {-2, -2}, {2, 2}, 0.1);
   scene.bed.elevation = [](double x, double y) { return 0.1 * (x * x + y * y); };
@@ -69,7 +73,8 @@ struct Energy {
   double kinetic, total;  // J per density of water
 };
 Energy energy(const Flow& flow) {
-  const auto m = flow.real("mass"), u = flow.real("u"), v = flow.real("v"), d = flow.real("depth"), b = flow.real("bed");
+  const auto m = flow.real("mass"), u = flow.real("u"), v = flow.real("v"), d = flow.real("depth"),
+             b = flow.real("bed");
   const double kinetic = test::sum(flow, [&](int i) { return 0.5 * m(i) * (u(i) * u(i) + v(i) * v(i)); });
   return {kinetic, kinetic + test::sum(flow, [&](int i) { return g * m(i) * (0.5 * d(i) + b(i)); })};
 }
@@ -100,7 +105,9 @@ TEST_CASE("conservation: the energy of an inviscid slosh, to the second order of
   CHECK(fine / finer == Approx(4).margin(0.8));
 }
 
-TEST_CASE("conservation: mechanics() is the sum over the particles, and its energy is kept by the variational form as well") {
+TEST_CASE(
+    "conservation: mechanics() is the sum over the particles, and its energy is kept by the variational form "
+    "as well") {
   Flow classical(slosh());
   classical.many_steps(20);
   const Mechanics m = classical.method->mechanics();
@@ -112,7 +119,9 @@ TEST_CASE("conservation: mechanics() is the sum over the particles, and its ener
 
   Scene scene = slosh();
   scene.sph.acceleration = Acceleration::variational;
-  scene.bed.elevation = [](double x, double y) { return 0.4 * (x * x + y * y); };  // slopes to 0.6: v . grad b matters
+  scene.bed.elevation = [](double x, double y) {
+    return 0.4 * (x * x + y * y);
+  };  // slopes to 0.6: v . grad b matters
   scene.water.surface = [](double x, double) { return 0.3 + 0.1 * x; };
   Flow flow(scene);
   const Mechanics start = flow.method->mechanics();
@@ -123,8 +132,8 @@ TEST_CASE("conservation: mechanics() is the sum over the particles, and its ener
     kinetic = std::max(kinetic, now.kinetic);
     level = std::max(level, now.kinetic - energy(flow).kinetic);
   });
-  CHECK(worst < 5e-3 * kinetic);    // the bound of the classical slosh above
-  CHECK(level > 2e-2 * kinetic);    // without the vertical velocity the sum would miss it
+  CHECK(worst < 5e-3 * kinetic);  // the bound of the classical slosh above
+  CHECK(level > 2e-2 * kinetic);  // without the vertical velocity the sum would miss it
 }
 
 namespace {
@@ -151,12 +160,13 @@ double restlessness(const Scene& scene) {
 }  // namespace
 
 TEST_CASE("conservation: a lake at rest between two walls stays nearly at rest") {
-  CHECK(restlessness(lake(1, 0)) < 1e-12);    // eta 1: the lattice is an exact equilibrium, walls included
-  CHECK(restlessness(lake(1, 0.1)) < 4e-3);   // the acceptance of cases/lake_at_rest
+  CHECK(restlessness(lake(1, 0)) < 1e-12);   // eta 1: the lattice is an exact equilibrium, walls included
+  CHECK(restlessness(lake(1, 0.1)) < 4e-3);  // the acceptance of cases/lake_at_rest
 }
 
 TEST_CASE("conservation: a lake at rest in a walled basin stays nearly at rest") {
-  CHECK(restlessness(lake(2, 0)) < 1e-4);    // images continue the lattice: round-off of the Newton, tolerance 1e-5
+  CHECK(restlessness(lake(2, 0)) <
+        1e-4);  // images continue the lattice: round-off of the Newton, tolerance 1e-5
   CHECK(restlessness(lake(2, 0.1)) < 1e-2);  // Vacondio 2010, 1.4: below 0.01
   Scene scene = lake(2, 0);
   scene.sph.walls = WallKind::mvbp;
@@ -181,10 +191,12 @@ TEST_CASE("conservation: a pond of one cell beside a lake is an isolated particl
     ++found;
     const double cap = 3 * scene.sph.eta * 0.05, norm = dimension == 1 ? 2.0 / 3 : 10 / (7 * std::acos(-1.0));
     CHECK(flow.real("h")(i) == Approx(cap).epsilon(1e-12));
-    CHECK(flow.real("depth")(i) == Approx(flow.real("mass")(i) * norm / std::pow(cap, dimension)).epsilon(1e-11));
+    CHECK(flow.real("depth")(i) ==
+          Approx(flow.real("mass")(i) * norm / std::pow(cap, dimension)).epsilon(1e-11));
     CHECK(flow.real("ax")(i) == 0);
   }
   CHECK(found == 1);
   flow.many_steps(20);
-  CHECK(std::isfinite(test::sum(flow, [&](int i) { return flow.real("x")(i) + flow.real("u")(i) + flow.real("depth")(i); })));
+  CHECK(std::isfinite(
+      test::sum(flow, [&](int i) { return flow.real("x")(i) + flow.real("u")(i) + flow.real("depth")(i); })));
 }

@@ -1,4 +1,5 @@
-// Splitting and merging keep mass, momentum and centre of mass to round-off, whatever the particles; still water stays calm.
+// Splitting and merging keep mass, momentum and centre of mass to round-off, whatever the particles; still
+// water stays calm.
 #include <catch2/catch.hpp>
 
 #include "kernels/swe/split/refinement.hpp"
@@ -22,7 +23,8 @@ Sums sums(const Cloud<D>& cloud) {
   Sums s;
   for (int i = 0; i < cloud.fields.size(); ++i) {
     if (p.id(i) < 0) continue;
-    const double m = p.m(i), y = D == 2 ? cloud.fields.real("y")(i) : 0, v = D == 2 ? cloud.fields.real("v")(i) : 0;
+    const double m = p.m(i), y = D == 2 ? cloud.fields.real("y")(i) : 0,
+                 v = D == 2 ? cloud.fields.real("v")(i) : 0;
     ++s.count;
     s.mass += m;
     s.x += m * p.x.x(i), s.y += m * y;
@@ -55,12 +57,14 @@ void check_split(int into, bool linear) {
   const Sums before = sums(cloud);
   swe::Refinement<D> refinement(split_all<D>(into, linear), {}, {1.2, 9.81, 1, 1e300});
   int next_id = 300;
-  CHECK(refinement.split(cloud.fields, [&] { return cloud.bind(); }, {}, {}, next_id) == 300);
+  CHECK(refinement.split(
+            cloud.fields, [&] { return cloud.bind(); }, {}, {}, next_id) == 300);
   const Sums after = sums(cloud);
   CHECK(after.count == 300 * into);
   check_kept(before, after);
   if (!linear) CHECK(std::abs(after.energy - before.energy) < 1e-14 * before.size);
-  if (linear) CHECK(after.energy > before.energy);  // the gradient's own energy, which the parent did not resolve
+  if (linear)
+    CHECK(after.energy > before.energy);  // the gradient's own energy, which the parent did not resolve
 }
 
 template <int D>
@@ -68,7 +72,8 @@ void check_merge() {
   Cloud<D> cloud(test::random_water(D, 300, 0.1, 12), 0.1);
   cloud.settle(test::tight(D));
   const Sums before = sums(cloud);
-  swe::Refinement<D> refinement({}, swe::MergeOptions{PlacedValue(1e300, {}), PlacedValue(1e300, {}), 1}, {1.2, 9.81, 1, 1e300});
+  swe::Refinement<D> refinement({}, swe::MergeOptions{PlacedValue(1e300, {}), PlacedValue(1e300, {}), 1},
+                                {1.2, 9.81, 1, 1e300});
   const int mergers = refinement.merge(cloud.bind(), 300, {}, cloud.clusters, cloud.neighbours.view());
   CHECK(mergers > 60);
   const Sums after = sums(cloud);
@@ -93,7 +98,8 @@ double rms_speed(const Flow& flow) {
 
 }  // namespace
 
-TEST_CASE("refinement: a split keeps mass, momentum and centre of mass, and kinetic energy with equal velocities") {
+TEST_CASE(
+    "refinement: a split keeps mass, momentum and centre of mass, and kinetic energy with equal velocities") {
   const bool linear = GENERATE(false, true);
   CAPTURE(linear);
   check_split<2>(7, linear);
@@ -110,7 +116,8 @@ TEST_CASE("refinement: a free drop that splits and merges as it goes keeps mass 
   Scene scene = test::bare_scene(2, {-1, -1}, {1, 1}, 0.05);
   scene.water.depth = [](double x, double y) { return 0.5 - x * x - 0.7 * y * y; };
   scene.water.wet_above = 0.02;
-  scene.water.velocity = {[](double x, double y) { return 0.4 + 0.3 * x - y; }, [](double x, double y) { return -0.1 + x + 0.2 * y; }};
+  scene.water.velocity = {[](double x, double y) { return 0.4 + 0.3 * x - y; },
+                          [](double x, double y) { return -0.1 + x + 0.2 * y; }};
   scene.split = split_of(1.5);
   scene.merge = Merge{};
   scene.merge->area.elsewhere = 0.3;
@@ -133,7 +140,8 @@ TEST_CASE("refinement: a free drop that splits and merges as it goes keeps mass 
 TEST_CASE("refinement: half a lake split stays calm", "[slow]") {
   Scene scene = test::bare_scene(2, {0, 0}, {1, 0.5}, 0.05);
   scene.water.depth = [](double, double) { return 0.5; };
-  scene.water.disorder = GENERATE(0.0, 1e-5, 1e-4);  // which particles push past each other at the seam is chance
+  scene.water.disorder =
+      GENERATE(0.0, 1e-5, 1e-4);  // which particles push past each other at the seam is chance
   CAPTURE(scene.water.disorder);
   test::close_box(scene);
   scene.split = split_of(1e300);
@@ -149,10 +157,11 @@ TEST_CASE("refinement: half a lake split stays calm", "[slow]") {
     last = std::max(last, flow.largest_speed());
     rms = std::max(rms, rms_speed(flow));
   });
-  // The pattern leaves depths 5 % wrong (the gather formulation, Vacondio 2010, 3.3.1), which a wave carries off at 5 % of the
-  // celerity; two that meet make 10 %. Once the particles have found their places (17 crossings of the basin by a wave) the water as a
-  // whole is still: 0.13 to 0.38 % with six disorders, with masses of 1 and 1/7 side by side. Single light particles at the seam still
-  // push past heavy ones, at 0.9 to 6 %, and never faster than when the water was split.
+  // The pattern leaves depths 5 % wrong (the gather formulation, Vacondio 2010, 3.3.1), which a wave carries
+  // off at 5 % of the celerity; two that meet make 10 %. Once the particles have found their places (17
+  // crossings of the basin by a wave) the water as a whole is still: 0.13 to 0.38 % with six disorders, with
+  // masses of 1 and 1/7 side by side. Single light particles at the seam still push past heavy ones, at 0.9
+  // to 6 %, and never faster than when the water was split.
   CHECK(first < 0.10 * celerity);
   CHECK(last < 0.10 * celerity);
   CHECK(rms < 0.005 * celerity);

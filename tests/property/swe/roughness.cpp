@@ -51,7 +51,8 @@ TEST_CASE("roughness: a map of one value is that value") {
   CHECK(a.t == Approx(b.t).epsilon(1e-14));
   for (const char* name : {"x", "y", "u", "v", "depth"}) {
     CAPTURE(name);
-    CHECK(test::largest_difference(a.by_id(name), b.by_id(name)) < 1e-13);  // n^2 g and g n^2 round differently
+    CHECK(test::largest_difference(a.by_id(name), b.by_id(name)) <
+          1e-13);  // n^2 g and g n^2 round differently
   }
 }
 
@@ -61,7 +62,8 @@ TEST_CASE("roughness: each ground slows the water as it should") {
   scene.manning->map = [](double x, double) { return x < 2 ? 0.01 : 0.05; };
   Flow flow(scene);
   flow.run(0.2);
-  // dv/dt = -K v^2 as long as neither the ends nor the border (0.97 m away; waves and kernels cover 0.4 m) are felt.
+  // dv/dt = -K v^2 as long as neither the ends nor the border (0.97 m away; waves and kernels cover 0.4 m)
+  // are felt.
   const auto u = flow.by_id("u");
   for (const int column : {20, 60}) {
     const double n = column < 40 ? 0.01 : 0.05, k = 9.81 * n * n / std::pow(0.2, 4.0 / 3);

@@ -13,7 +13,8 @@ Scene lake(int dimension) {
   Scene scene = test::bare_scene(dimension, {0, 0}, {4, dimension == 2 ? 3.0 : 0.0}, 0.1);
   test::close_box(scene);
   scene.bed.elevation = [dimension](double x, double y) {
-    return 0.3 * std::sin(2 * x) * std::cos(3 * y) + (x < 2 ? 0.2 : 0.0) + 0.05 * std::sin(40 * x + (dimension == 2 ? 30 * y : 0));
+    return 0.3 * std::sin(2 * x) * std::cos(3 * y) + (x < 2 ? 0.2 : 0.0) +
+           0.05 * std::sin(40 * x + (dimension == 2 ? 30 * y : 0));
   };
   scene.bed.spacing = 0.05;
   scene.water.surface = [](double, double) { return 1.0; };
@@ -49,6 +50,8 @@ TEST_CASE("well-balanced: still water over a rough bed with a step stays at rest
 TEST_CASE("well-balanced: a bump of the surface still makes waves") {
   Scene scene = lake(2);
   scene.sph.well_balanced = true;
-  scene.water.surface = [](double x, double y) { return 1 + 0.01 * std::exp(-4 * ((x - 2) * (x - 2) + (y - 1.5) * (y - 1.5))); };
+  scene.water.surface = [](double x, double y) {
+    return 1 + 0.01 * std::exp(-4 * ((x - 2) * (x - 2) + (y - 1.5) * (y - 1.5)));
+  };
   CHECK(fastest_in(scene, 30) > 1e-3);
 }

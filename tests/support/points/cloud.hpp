@@ -1,5 +1,6 @@
-// Clouds of particles for tests of cellgrid and the kernels, made without a scene: points and random numbers, sorted field
-// sets, and a Cloud that is sorted, listed, walled and solved as a step does it. Results are read back by particle id.
+// Clouds of particles for tests of cellgrid and the kernels, made without a scene: points and random numbers,
+// sorted field sets, and a Cloud that is sorted, listed, walled and solved as a step does it. Results are
+// read back by particle id.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -21,7 +22,9 @@ namespace freshet::test {
 class Random {
  public:
   explicit Random(unsigned seed) : engine_(seed) {}
-  double operator()(double low, double high) { return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53; }
+  double operator()(double low, double high) {
+    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
+  }
 
  private:
   std::mt19937_64 engine_;
@@ -42,7 +45,8 @@ inline std::vector<int> numbers(int n) {
 }
 
 // n points in the square (1-D: the interval) from -half to half around a centre.
-inline std::vector<Point> random_points(int dimension, int n, double half, unsigned seed, Point centre = {0, 0}) {
+inline std::vector<Point> random_points(int dimension, int n, double half, unsigned seed,
+                                        Point centre = {0, 0}) {
   Random random(seed);
   std::vector<Point> points(static_cast<std::size_t>(n));
   for (Point& p : points) {
@@ -59,7 +63,8 @@ struct Block {
 inline std::vector<Point> lattice(int dimension, const Block& b, double dx) {
   std::vector<Point> points;
   for (int j = b.j0; j < (dimension == 2 ? b.j1 : b.j0 + 1); ++j)
-    for (int i = b.i0; i < b.i1; ++i) points.push_back({(i + 0.5) * dx, dimension == 2 ? (j + 0.5) * dx : 0.0});
+    for (int i = b.i0; i < b.i1; ++i)
+      points.push_back({(i + 0.5) * dx, dimension == 2 ? (j + 0.5) * dx : 0.0});
   return points;
 }
 
@@ -69,7 +74,8 @@ inline Box wide(double spacing) { return {-2000 * spacing, 2000 * spacing, -2000
 // x, (y), h and id of points, unsorted. ids: empty = in order.
 FieldSet point_fields(int dimension, const std::vector<Point>& points, std::vector<int> ids = {});
 
-// A particle as a test describes it; rho is the first guess of the depth, kh = rho0 h0^D the constant of rho h^D.
+// A particle as a test describes it; rho is the first guess of the depth, kh = rho0 h0^D the constant of rho
+// h^D.
 struct Grain {
   Point x, v{0, 0};
   double m, rho0, h0;
@@ -89,14 +95,16 @@ inline std::vector<Grain> random_water(int dimension, int n, double dx, unsigned
 }
 
 // A lattice of depth rho0, h = eta dx.
-inline std::vector<Grain> still_water(int dimension, const std::vector<Point>& points, double dx, double rho0, double eta) {
+inline std::vector<Grain> still_water(int dimension, const std::vector<Point>& points, double dx, double rho0,
+                                      double eta) {
   std::vector<Grain> grains;
-  for (const Point& p : points) grains.push_back({p, {0, 0}, rho0 * (dimension == 2 ? dx * dx : dx), rho0, eta * dx});
+  for (const Point& p : points)
+    grains.push_back({p, {0, 0}, rho0 * (dimension == 2 ? dx * dx : dx), rho0, eta * dx});
   return grains;
 }
 
-// What is compared is the equations, not where the iteration stops, nor a list that is too short: a margin of 4 covers the
-// way from the floor of h to its cap.
+// What is compared is the equations, not where the iteration stops, nor a list that is too short: a margin of
+// 4 covers the way from the floor of h to its cap.
 inline swe::DensityOptions tight(int dimension) {
   swe::DensityOptions options{};
   options.gravity = 9.81;
@@ -128,7 +136,9 @@ class Cloud {
   int lists = 0;      // made by the last solve()
   int cut_later = 0;  // lanes
   AnyKernel<D> kernel = CubicSpline<D>{};
-  double support() const { return std::visit([](const auto& k) { return k.support; }, kernel); }
+  double support() const {
+    return std::visit([](const auto& k) { return k.support; }, kernel);
+  }
 
   Cloud(const std::vector<Grain>& grains, double spacing)
       : fields(static_cast<int>(grains.size())), order(D, spacing, wide(spacing)), spacing_(spacing) {
@@ -137,7 +147,8 @@ class Cloud {
   }
 
   void add_walls(const std::vector<Polyline>& lines, const Point& inside, WallKind kind = WallKind::mvbp) {
-    walls.emplace(lines, WallOptions{kind, spacing_, 1.5 * support() * 1.2 * spacing_, true}, inside, support());
+    walls.emplace(lines, WallOptions{kind, spacing_, 1.5 * support() * 1.2 * spacing_, true}, inside,
+                  support());
   }
 
   swe::Particles<D> bind() const { return declare(FieldList::binding(fields)); }
@@ -150,11 +161,13 @@ class Cloud {
     clusters.cut(order.rows(), cut_later);
     const swe::Particles<D> p = bind();
     for (int i = 0; i < fields.size(); ++i)
-      p.h(i) = clamp(swe::smoothing_length<D>(p.kh(i), p.rho(i)), options.bounds.floor * p.h0(i), options.bounds.cap * p.h0(i));
+      p.h(i) = clamp(swe::smoothing_length<D>(p.kh(i), p.rho(i)), options.bounds.floor * p.h0(i),
+                     options.bounds.cap * p.h0(i));
     if (single.on()) swe::copy_motion<D>(p, fields.size());
     for (lists = 1;; ++lists) {
       list(options.margin);
-      const auto report = swe::solve_density<D>(kernel, clusters, neighbours.view(), wall_view(), p, {}, options);
+      const auto report =
+          swe::solve_density<D>(kernel, clusters, neighbours.view(), wall_view(), p, {}, options);
       if (report.outgrown == 0 || lists == 40) return report;
     }
   }
@@ -173,8 +186,10 @@ class Cloud {
 
   // Pairs in single precision from here on.
   void use_single() {
-    single.motion = Kokkos::View<SingleRecord<4>*, Memory>(Kokkos::view_alloc("motion"), static_cast<std::size_t>(fields.size()));
-    single.state = Kokkos::View<SingleRecord<16>*, Memory>(Kokkos::view_alloc("state"), static_cast<std::size_t>(fields.size()));
+    single.motion = Kokkos::View<SingleRecord<4>*, Memory>(Kokkos::view_alloc("motion"),
+                                                           static_cast<std::size_t>(fields.size()));
+    single.state = Kokkos::View<SingleRecord<16>*, Memory>(Kokkos::view_alloc("state"),
+                                                           static_cast<std::size_t>(fields.size()));
   }
 
   // The field's values in the order of the ids.

@@ -40,13 +40,16 @@ struct Direct {
 // -(1/(rho D)) sum m r W', 1 where h is at a bound.
 inline double direct_alpha(const Direct& s, size_t i) {
   const double h0 = s.grains[i].h0;
-  if (std::abs(s.h[i] - s.bounds.floor * h0) < 1e-9 * h0 || std::abs(s.h[i] - s.bounds.cap * h0) < 1e-9 * h0) return 1;
+  if (std::abs(s.h[i] - s.bounds.floor * h0) < 1e-9 * h0 || std::abs(s.h[i] - s.bounds.cap * h0) < 1e-9 * h0)
+    return 1;
   double sum = 0;
-  for (size_t j = 0; j < s.grains.size(); ++j) sum -= s.grains[j].m * (s.x(i) - s.x(j)).dot(s.slope(i, j, s.h[i]));
+  for (size_t j = 0; j < s.grains.size(); ++j)
+    sum -= s.grains[j].m * (s.x(i) - s.x(j)).dot(s.slope(i, j, s.h[i]));
   return sum / (s.rho[i] * s.dimension);
 }
 
-// sum m_j (v_j - v_i) G_ij^T L, with L the inverse of the same sum for x; nothing where the neighbours do not span the plane.
+// sum m_j (v_j - v_i) G_ij^T L, with L the inverse of the same sum for x; nothing where the neighbours do not
+// span the plane.
 inline Matrix2d direct_gradient(const Direct& s, size_t i) {
   Matrix2d of_v = Matrix2d::Zero(), of_x = Matrix2d::Zero();
   for (size_t j = 0; j < s.grains.size(); ++j) {
@@ -62,13 +65,15 @@ inline Matrix2d direct_gradient(const Direct& s, size_t i) {
 
 inline double limiter(double ratio) { return std::max(0.0, std::min(1.0, ratio)); }
 
-// v_r - v_l of the normal velocity f = v . n, left = j, right = i (2.57, corrected); unlimited fluxes take f_i - f_j.
+// v_r - v_l of the normal velocity f = v . n, left = j, right = i (2.57, corrected); unlimited fluxes take
+// f_i - f_j.
 inline double normal_jump(const Direct& s, size_t i, size_t j) {
   const Vector2d x_ij = s.x(i) - s.x(j), n = x_ij.normalized();
   const double f_ij = (s.v(i) - s.v(j)).dot(n);
   if (!reconstructs(s.flux) || f_ij == 0) return f_ij;
   const double plus = n.dot(s.gradient[j] * x_ij) / f_ij, minus = n.dot(s.gradient[i] * x_ij) / f_ij;
-  const double left = s.v(j).dot(n) + limiter(plus) * f_ij / 2, right = s.v(i).dot(n) - limiter(minus) * f_ij / 2;
+  const double left = s.v(j).dot(n) + limiter(plus) * f_ij / 2,
+               right = s.v(i).dot(n) - limiter(minus) * f_ij / 2;
   return right - left;
 }
 
@@ -87,8 +92,8 @@ inline Vector2d direct_depth_gradient(const Direct& s, size_t i) {
   return of_x.transpose().inverse() * of_rho;
 }
 
-// d* of Toro's two-shock solver on the two-rarefaction estimate (2.56), left = j, right = i; the reconstructed states with
-// the ratio form of the limiter as the thesis prints it (2.57).
+// d* of Toro's two-shock solver on the two-rarefaction estimate (2.56), left = j, right = i; the
+// reconstructed states with the ratio form of the limiter as the thesis prints it (2.57).
 inline double direct_two_shock(const Direct& s, size_t i, size_t j) {
   const Vector2d x_ij = s.x(i) - s.x(j);
   double left = s.rho[j], right = s.rho[i];
@@ -101,14 +106,16 @@ inline double direct_two_shock(const Direct& s, size_t i, size_t j) {
   const double u_lr = i == j ? 0 : -normal_jump(s, i, j), g = s.gravity;
   const double c0 = 0.5 * (std::sqrt(g * left) + std::sqrt(g * right)) + 0.25 * u_lr;
   if (c0 <= 0) return 0;
-  const double d0 = c0 * c0 / g, g_l = std::sqrt(g * (d0 + left) / (2 * d0 * left)), g_r = std::sqrt(g * (d0 + right) / (2 * d0 * right));
+  const double d0 = c0 * c0 / g, g_l = std::sqrt(g * (d0 + left) / (2 * d0 * left)),
+               g_r = std::sqrt(g * (d0 + right) / (2 * d0 * right));
   return std::max(0.0, (g_l * left + g_r * right + u_lr) / (g_l + g_r));
 }
 
 // Artificial viscosity (2.53), corrected: approaching pairs, mean rho, c, h; a = strength, b = 2.
 inline double direct_viscosity(const Direct& s, size_t i, size_t j) {
   const Vector2d x_ij = s.x(i) - s.x(j);
-  const double closing = (s.v(i) - s.v(j)).dot(x_ij), h = 0.5 * (s.h[i] + s.h[j]), rho = 0.5 * (s.rho[i] + s.rho[j]);
+  const double closing = (s.v(i) - s.v(j)).dot(x_ij), h = 0.5 * (s.h[i] + s.h[j]),
+               rho = 0.5 * (s.rho[i] + s.rho[j]);
   if (closing >= 0) return 0;
   const double mu = h * closing / (x_ij.squaredNorm() + 0.01 * h * h);
   const double c = 0.5 * (std::sqrt(s.gravity * s.rho[i]) + std::sqrt(s.gravity * s.rho[j]));

@@ -22,7 +22,11 @@ struct FlowPoints {
   }
 
   fpm::Cloud cloud() const {
-    return {{order.rows(), {fields.real("x"), fields.real("y")}, period}, fields.integer("id"), fields.integer("kind"), tank.view(), spacing};
+    return {{order.rows(), {fields.real("x"), fields.real("y")}, period},
+            fields.integer("id"),
+            fields.integer("kind"),
+            tank.view(),
+            spacing};
   }
   Point at(int i) const { return {fields.real("x")(i), fields.real("y")(i)}; }
   int size() const { return fields.size(); }

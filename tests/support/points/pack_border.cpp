@@ -1,5 +1,5 @@
-// Functions that take and return packs by value, compiled apart from the test that calls them: between objects built with
-// different instruction sets the arguments arrive in other registers, silently.
+// Functions that take and return packs by value, compiled apart from the test that calls them: between
+// objects built with different instruction sets the arguments arrive in other registers, silently.
 #include "tests/support/points/pack_border.hpp"
 
 namespace freshet::test {

@@ -7,7 +7,9 @@ PairSystem pair_system(const PairScene& scene) {
   const double dx = 1.0 / n, h = 1.5 * dx, theta = 0.55, k = std::pow(theta * scene.courant * dx, 2);
   std::vector<Point> points = lattice(2, {0, n, 0, n}, dx);
   Random random(7);
-  for (Point& p : points) p = {p[0] + random(-scene.disorder, scene.disorder) * dx, p[1] + random(-scene.disorder, scene.disorder) * dx};
+  for (Point& p : points)
+    p = {p[0] + random(-scene.disorder, scene.disorder) * dx,
+         p[1] + random(-scene.disorder, scene.disorder) * dx};
   PairSystem s{point_fields(2, points), RowOrder(2, dx, wide(dx)), {}, {}, {}, {}, {}, {}};
   s.order.sort(s.fields);
   const auto size = static_cast<std::size_t>(n) * static_cast<std::size_t>(n);

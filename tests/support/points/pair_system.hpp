@@ -1,5 +1,6 @@
-// The free-surface system of the semi-implicit method over disordered particles, made directly from its formulas (not by the
-// project's kernels): omega_i x_i + sum_j a_ij (x_i - x_j), a_ij = k A_ij H_ij / d_ij, A_ij = omega_i omega_j G_ij (1/s_i + 1/s_j).
+// The free-surface system of the semi-implicit method over disordered particles, made directly from its
+// formulas (not by the project's kernels): omega_i x_i + sum_j a_ij (x_i - x_j), a_ij = k A_ij H_ij / d_ij,
+// A_ij = omega_i omega_j G_ij (1/s_i + 1/s_j).
 #pragma once
 #include <cmath>
 #include <functional>

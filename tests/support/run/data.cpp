@@ -11,7 +11,8 @@ namespace freshet::test {
 
 std::optional<std::string> data_file(const std::string& name) {
   const char* folder = std::getenv("FRESHET_DATA");
-  for (const std::string& root : {std::string(folder ? folder : ""), std::string(build::source_dir) + "/data"})
+  for (const std::string& root :
+       {std::string(folder ? folder : ""), std::string(build::source_dir) + "/data"})
     if (!root.empty() && std::filesystem::exists(root + "/" + name)) return root + "/" + name;
   std::printf("SKIPPED: %s: no data; set FRESHET_DATA\n", name.c_str());
   return std::nullopt;

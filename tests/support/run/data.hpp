@@ -12,10 +12,12 @@
 
 namespace freshet::test {
 
-// Absolute path of a file below $FRESHET_DATA or data/ of the checkout; where it is missing the test says so and is skipped.
+// Absolute path of a file below $FRESHET_DATA or data/ of the checkout; where it is missing the test says so
+// and is skipped.
 std::optional<std::string> data_file(const std::string& name);
 
-// The rows of a file that consist of numbers alone (NaN is one), parted by commas or blanks; other lines are passed over.
+// The rows of a file that consist of numbers alone (NaN is one), parted by commas or blanks; other lines are
+// passed over.
 std::vector<std::vector<double>> number_rows(const std::string& path);
 
 }  // namespace freshet::test

@@ -20,7 +20,8 @@ class FlowRun {
  public:
   explicit FlowRun(const std::string& name, const std::vector<std::string>& overrides = {})
       : FlowRun(read_scene(std::string(build::source_dir) + "/cases/" + name + ".toml", overrides)) {}
-  explicit FlowRun(const Scene& of) : scene(of), solver(scene), outputs_(regular_times(scene.output.every, scene.end_time)) {}
+  explicit FlowRun(const Scene& of)
+      : scene(of), solver(scene), outputs_(regular_times(scene.output.every, scene.end_time)) {}
 
   // With steps that end on the scene's output times and at t.
   void run_to(double t) {
@@ -40,7 +41,8 @@ class FlowRun {
 
   std::vector<FlowPoint> points() const {
     const FieldSet& f = solver.fields();
-    const auto x = on_host(f.real("x")), y = on_host(f.real("y")), u = on_host(f.real("u")), v = on_host(f.real("v")), p = on_host(f.real("p"));
+    const auto x = on_host(f.real("x")), y = on_host(f.real("y")), u = on_host(f.real("u")),
+               v = on_host(f.real("v")), p = on_host(f.real("p"));
     const auto kind = on_host(f.integer("kind")), surface = on_host(f.integer("surface"));
     std::vector<FlowPoint> all;
     for (int i = 0; i < f.size(); ++i) all.push_back({x(i), y(i), u(i), v(i), p(i), kind(i), surface(i)});

@@ -22,7 +22,8 @@ Results results_of(const Driver& driver, const Method& method) {
   if (const auto* gauges = find<GaugeRecorder>(all)) r.gauges = gauges->results();
   if (const auto* run_ups = find<RunUpRecorder>(all)) r.run_ups = run_ups->results();
   if (const auto* transects = find<TransectRecorder>(all)) r.transects = transects->results();
-  if (const auto* steadiness = find<SteadinessWatch>(all)) r.steady = steadiness->result(method, driver.clock());
+  if (const auto* steadiness = find<SteadinessWatch>(all))
+    r.steady = steadiness->result(method, driver.clock());
   if (const auto* errors = find<ErrorRecorder>(all))
     r.errors = errors->at_end(method, driver.clock()), r.errors_at = errors->snapshots();
   return r;
@@ -39,7 +40,8 @@ CaseRun finish_case(const std::string& name, const std::vector<std::string>& ove
   driver.run();
   CaseRun run{results_of(driver, *method), {}, fluid_on_host(method->fields()), method};
   if (const auto* gauges = find<GaugeRecorder>(driver.observers()))
-    for (std::size_t g = 0; g < scene.gauges.size(); ++g) run.gauges.push_back(gauge_series(gauges->rows(), g));
+    for (std::size_t g = 0; g < scene.gauges.size(); ++g)
+      run.gauges.push_back(gauge_series(gauges->rows(), g));
   return run;
 }
 

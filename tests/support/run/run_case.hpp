@@ -39,8 +39,8 @@ Results results_of(const Driver& driver, const Method& method);
 
 struct CaseRun {
   Results summary;
-  std::vector<Series> gauges;  // m, elevations in the order of the scene
-  Fluid fluid;                 // at the end
+  std::vector<Series> gauges;            // m, elevations in the order of the scene
+  Fluid fluid;                           // at the end
   std::shared_ptr<const Method> method;  // likewise
 
   template <class Where>

@@ -51,9 +51,7 @@ inline Failure failure(const std::string& text, const std::vector<std::string>& 
                        const std::string& file = "scene.toml") {
   try {
     read_scene_text(text, file, overrides);
-  } catch (const Error& error) {
-    return {error.what(), error.exit()};
-  }
+  } catch (const Error& error) { return {error.what(), error.exit()}; }
   return {};
 }
 

@@ -14,7 +14,8 @@
 namespace freshet::test {
 
 // Flat, frictionless, without walls; water as the caller sets it.
-inline Scene bare_scene(int dimension, const freshet::Point& low, const freshet::Point& high, double spacing) {
+inline Scene bare_scene(int dimension, const freshet::Point& low, const freshet::Point& high,
+                        double spacing) {
   Scene scene;
   scene.name = "test";
   scene.domain = {dimension, low, high};
@@ -29,10 +30,8 @@ inline Scene bare_scene(int dimension, const freshet::Point& low, const freshet:
 inline void close_box(Scene& scene) {
   const auto [x0, y0] = scene.domain.low;
   const auto [x1, y1] = scene.domain.high;
-  if (scene.domain.dimension == 1)
-    scene.walls = {Wall{{{x0, 0}}}, Wall{{{x1, 0}}}};
-  else
-    scene.walls = {Wall{{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}, {x0, y0}}}};
+  if (scene.domain.dimension == 1) scene.walls = {Wall{{{x0, 0}}}, Wall{{{x1, 0}}}};
+  else scene.walls = {Wall{{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}, {x0, y0}}}};
 }
 
 // One of a list of choices, by the word that a scene would say.
@@ -46,11 +45,13 @@ Choice pick(const std::vector<Choice>& choices, const std::string& word) {
 // What the law of an open boundary imposes.
 inline void impose(OpenBoundary& boundary, const std::string& what, Series series) {
   if (!input::has_key(boundary.law, what)) throw std::invalid_argument("its law imposes no " + what);
-  if (auto* state = std::get_if<ImposedState>(&boundary.law); state && what != "velocity") state->above_bed = what == "depth";
+  if (auto* state = std::get_if<ImposedState>(&boundary.law); state && what != "velocity")
+    state->above_bed = what == "depth";
   if (auto* open = std::get_if<Transmissive>(&boundary.law)) open->levelled = !series.t.empty();
   for (OpenBoundary::Imposed& i : boundary.imposed)
     if (i.what == what) return void(i.series = std::move(series));
-  boundary.imposed.insert(what == "velocity" ? boundary.imposed.end() : boundary.imposed.begin(), {what, "", std::move(series)});
+  boundary.imposed.insert(what == "velocity" ? boundary.imposed.end() : boundary.imposed.begin(),
+                          {what, "", std::move(series)});
 }
 
 inline void impose_if_known(OpenBoundary& boundary, const std::string& what, Series series) {
@@ -106,7 +107,8 @@ struct Flow {
     for (int n = 0; n < count; ++n) step(method->stable_dt());
   }
   // To t = end exactly; each(*this) after every step.
-  void run(double end, const std::function<void()>& each = [] {}) {
+  void run(
+      double end, const std::function<void()>& each = [] {}) {
     while (t < end) {
       step(std::min(method->stable_dt(), end - t));
       each();
@@ -131,7 +133,8 @@ struct Flow {
   double largest_speed() const {
     const auto u = real("u"), v = method->dimension() == 2 ? real("v") : u;
     double most = 0;
-    for (int i = 0; i < size(); ++i) most = std::max(most, method->dimension() == 2 ? std::hypot(u(i), v(i)) : std::abs(u(i)));
+    for (int i = 0; i < size(); ++i)
+      most = std::max(most, method->dimension() == 2 ? std::hypot(u(i), v(i)) : std::abs(u(i)));
     return most;
   }
 };

@@ -21,7 +21,8 @@ inline CaseError case_error(const std::string& name, const Keys& keys) {
   const CaseRun r = finish_case(name, keys);
   double sum = 0;
   for (std::size_t i = 0; i < r.fluid.size(); ++i) {
-    const double d = r.fluid.depth[i] - std::max(0.0, scene.compare.exact->at(r.fluid.x[i], r.fluid.y[i], scene.end_time).depth);
+    const double d = r.fluid.depth[i] -
+                     std::max(0.0, scene.compare.exact->at(r.fluid.x[i], r.fluid.y[i], scene.end_time).depth);
     sum += d * d;
   }
   return {std::sqrt(sum / static_cast<double>(r.fluid.size())), r.summary, r.method->report()};
@@ -34,7 +35,8 @@ inline Keys at(int particles, double dt, Keys more = {}) {
   return more;
 }
 
-inline Scene moving_scene(int dimension, const freshet::Point& low, const freshet::Point& high, double spacing) {
+inline Scene moving_scene(int dimension, const freshet::Point& low, const freshet::Point& high,
+                          double spacing) {
   Scene scene = bare_scene(dimension, low, high, spacing);
   scene.method = "sisph";
   scene.sisph.moving = true;

@@ -1,6 +1,7 @@
-// A second opinion on flows along a channel: the shallow water equations of unit width over a bed with Manning friction, by
-// finite volumes. MUSCL with minmod, hydrostatic reconstruction (Audusse et al. 2004), HLL flux, Heun in time: nothing in common with
-// the particles. tests/unit/reference/channel.cpp holds it against exact solutions.
+// A second opinion on flows along a channel: the shallow water equations of unit width over a bed with
+// Manning friction, by finite volumes. MUSCL with minmod, hydrostatic reconstruction (Audusse et al. 2004),
+// HLL flux, Heun in time: nothing in common with the particles. tests/unit/reference/channel.cpp holds it
+// against exact solutions.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -10,11 +11,12 @@
 namespace freshet::test {
 
 struct Channel {
-  double low, high;                      // m, walls at both ends
+  double low, high;  // m, walls at both ends
   int cells;
-  double gravity, manning;               // m/s2, s/m^(1/3)
+  double gravity, manning;                          // m/s2, s/m^(1/3)
   std::function<double(double)> bed, depth, speed;  // m, m at t = 0, m/s at t = 0 (absent = at rest)
-  std::function<double(double)> inflow{};           // m2/s into the low end, as a function of t; enters at critical depth
+  std::function<double(double)>
+      inflow{};  // m2/s into the low end, as a function of t; enters at critical depth
 };
 
 class ChannelFlow {
@@ -31,7 +33,7 @@ class ChannelFlow {
 
   double time() const { return t_; }  // s
   double depth(double place) const { return between(now_.depth, place); }
-  double discharge(double place) const { return between(now_.discharge, place); }  // m2/s
+  double discharge(double place) const { return between(now_.discharge, place); }   // m2/s
   double level(double place) const { return depth(place) + between(bed_, place); }  // m
   // Water beyond a place [m2].
   double volume_beyond(double place) const {
@@ -95,7 +97,8 @@ class ChannelFlow {
   double fastest() const {
     double most = c_.inflow ? 5.0 : 1e-9;  // m/s: a dry channel must notice that inflow begins
     for (std::size_t i = 0; i < size(); ++i)
-      most = std::max(most, std::abs(speed(now_.depth[i], now_.discharge[i])) + std::sqrt(c_.gravity * now_.depth[i]));
+      most = std::max(
+          most, std::abs(speed(now_.depth[i], now_.discharge[i])) + std::sqrt(c_.gravity * now_.depth[i]));
     return most;
   }
 
@@ -114,7 +117,8 @@ class ChannelFlow {
   };
   Flux hll(double dl, double ul, double dr, double ur) const {
     const double g = c_.gravity, cl = std::sqrt(g * dl), cr = std::sqrt(g * dr);
-    const double sl = std::min({ul - cl, ur - cr, 0.0}), sr = std::max({ul + cl, ur + cr, 0.0}), width = std::max(sr - sl, 1e-12);
+    const double sl = std::min({ul - cl, ur - cr, 0.0}), sr = std::max({ul + cl, ur + cr, 0.0}),
+                 width = std::max(sr - sl, 1e-12);
     const Flux l{dl * ul, dl * ul * ul + 0.5 * g * dl * dl}, r{dr * ur, dr * ur * ur + 0.5 * g * dr * dr};
     return {(sr * l.mass - sl * r.mass + sl * sr * (dr - dl)) / width,
             (sr * l.momentum - sl * r.momentum + sl * sr * (dr * ur - dl * ul)) / width};
@@ -156,7 +160,8 @@ class ChannelFlow {
 
   // What goes through the face from cell l to cell r; ratio = dt/dx.
   void cross(std::size_t l, std::size_t r, Water& w, double ratio) const {
-    const double bed = std::max(z_.right[l] - d_.right[l], z_.left[r] - d_.left[r]), half_g = 0.5 * c_.gravity;
+    const double bed = std::max(z_.right[l] - d_.right[l], z_.left[r] - d_.left[r]),
+                 half_g = 0.5 * c_.gravity;
     const double dl = std::max(0.0, z_.right[l] - bed), dr = std::max(0.0, z_.left[r] - bed);
     Flux flux = hll(dl, u_.right[l], dr, u_.left[r]);
     if (feed_ > 0 && r == at(0)) flux.mass = feed_;

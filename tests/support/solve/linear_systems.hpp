@@ -1,5 +1,5 @@
-// Sparse symmetric systems for tests of the iterative solvers: a matrix in rows as an operator of the project, its copy for
-// Eigen, and the 5-point Laplacian.
+// Sparse symmetric systems for tests of the iterative solvers: a matrix in rows as an operator of the
+// project, its copy for Eigen, and the 5-point Laplacian.
 #pragma once
 #include <Eigen/SparseCore>
 
@@ -16,7 +16,9 @@ inline Field<double> to_field(const Eigen::VectorXd& v) {
   for (int i = 0; i < v.size(); ++i) f(i) = v[i];
   return f;
 }
-inline Eigen::VectorXd to_eigen(const Field<double>& f, int n) { return Eigen::Map<const Eigen::VectorXd>(f.data(), n); }
+inline Eigen::VectorXd to_eigen(const Field<double>& f, int n) {
+  return Eigen::Map<const Eigen::VectorXd>(f.data(), n);
+}
 
 // y := A x, returns x.Ax.
 class RowOperator {
@@ -43,7 +45,8 @@ class RowOperator {
   EigenRows matrix_;
 };
 
-// mass on the diagonal, and conductance(a, b) between neighbouring nodes of an nx x ny grid, numbered x fastest.
+// mass on the diagonal, and conductance(a, b) between neighbouring nodes of an nx x ny grid, numbered x
+// fastest.
 template <class Conductance>
 EigenRows five_points(int nx, int ny, double mass, const Conductance& conductance) {
   std::vector<Eigen::Triplet<double>> entries;

@@ -1,4 +1,5 @@
-// What it takes to solve the free-surface system of a scene for a wave with noise: Jacobi alone, and with the particle mesh.
+// What it takes to solve the free-surface system of a scene for a wave with noise: Jacobi alone, and with the
+// particle mesh.
 #pragma once
 #include <catch2/catch.hpp>
 

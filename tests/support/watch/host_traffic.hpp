@@ -32,11 +32,31 @@ inline StepTraffic* traffic = nullptr;
 // Sums over particles (cellgrid/particles/sums.hpp) are counted together.
 inline const std::string sums = "sums";
 inline bool is_sum(const char* label) {
-  static const std::set<std::string> labels{
-      "swe::mass", "swe::mechanics", "open::convert", "open::straddling", "sisph::mass", "sisph::mechanics", "sisph::coefficients",
-      "sisph::limit_outflow", "sisph::residual", "sisph::product", "sisph::clip", "sisph::rim_flow", "sisph::increment",
-      "cg::residual", "cg::advance", "linear::dot", "linear::dots", "linear::subtract_from", "bicgstab::step_along",
-      "bicgstab::advance", "point_mesh::weight", "fpm::mean", "fpm::speed", "fpm::mechanics", "fpm::area"};
+  static const std::set<std::string> labels{"swe::mass",
+                                            "swe::mechanics",
+                                            "open::convert",
+                                            "open::straddling",
+                                            "sisph::mass",
+                                            "sisph::mechanics",
+                                            "sisph::coefficients",
+                                            "sisph::limit_outflow",
+                                            "sisph::residual",
+                                            "sisph::product",
+                                            "sisph::clip",
+                                            "sisph::rim_flow",
+                                            "sisph::increment",
+                                            "cg::residual",
+                                            "cg::advance",
+                                            "linear::dot",
+                                            "linear::dots",
+                                            "linear::subtract_from",
+                                            "bicgstab::step_along",
+                                            "bicgstab::advance",
+                                            "point_mesh::weight",
+                                            "fpm::mean",
+                                            "fpm::speed",
+                                            "fpm::mechanics",
+                                            "fpm::area"};
   return labels.count(label) > 0;
 }
 
@@ -50,16 +70,16 @@ class TrafficRecording {
     on_host_read = [](const char* label, std::size_t bytes) { traffic->copied(label, bytes); };
     namespace tools = Kokkos::Tools::Experimental;
     using Space = Kokkos::Profiling::SpaceHandle;
-    tools::set_begin_deep_copy_callback([](Space, const char* to, const void* to_data, Space, const char* from,
-                                           const void* from_data, uint64_t bytes) {
+    tools::set_begin_deep_copy_callback([](Space, const char* to, const void* to_data, Space,
+                                           const char* from, const void* from_data, uint64_t bytes) {
       const bool crosses = to == std::string("Scalar") || to_data == from_data;
       crosses ? traffic->copied(from, bytes) : void(++traffic->waits["device " + std::string(to)]);
     });
     tools::set_begin_parallel_reduce_callback(
         [](const char* label, const uint32_t, uint64_t*) { ++traffic->waits[is_sum(label) ? sums : label]; });
     tools::set_begin_parallel_scan_callback([](const char* label, const uint32_t, uint64_t*) {
-      static const std::set<std::string> with_result{"split::choose", "sisph::place_slots", "sisph::list_active",
-                                                     "fpm::new_places"};
+      static const std::set<std::string> with_result{"split::choose", "sisph::place_slots",
+                                                     "sisph::list_active", "fpm::new_places"};
       if (with_result.count(label) > 0) ++traffic->waits[label];
     });
   }

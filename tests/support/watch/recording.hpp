@@ -21,7 +21,9 @@ class Recording {
     const auto launch = [](const char* label, const uint32_t, uint64_t*) { launched->push_back(label); };
     set_launch(launch);
     Kokkos::Tools::Experimental::set_allocate_data_callback(
-        [](const Kokkos::Profiling::SpaceHandle, const char* label, const void*, const uint64_t) { allocated->push_back(label); });
+        [](const Kokkos::Profiling::SpaceHandle, const char* label, const void*, const uint64_t) {
+      allocated->push_back(label);
+    });
   }
   ~Recording() {
     set_launch(nullptr);

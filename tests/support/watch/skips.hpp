@@ -1,12 +1,13 @@
-// What a step of a scene launches and which fields it has, against a bare scene: flat, frictionless, without walls.
+// What a step of a scene launches and which fields it has, against a bare scene: flat, frictionless, without
+// walls.
 #pragma once
 #include <map>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "tests/support/watch/recording.hpp"
 #include "tests/support/run/scenes.hpp"
+#include "tests/support/watch/recording.hpp"
 
 namespace freshet::test {
 
@@ -22,11 +23,13 @@ inline Scene drop(int dimension = 2) {
 
 // The launches of one step of a bare scene, in their order. fields: how many the sort carries.
 inline std::vector<std::string> bare_step(int fields) {
-  std::vector<std::string> labels{"swe::kick_and_drift", "cellgrid::extent", "cellgrid::mark",  "cellgrid::keep",  "cellgrid::clear",
-                                  "cellgrid::count",     "cellgrid::scan",   "cellgrid::place", "cellgrid::settle"};
+  std::vector<std::string> labels{"swe::kick_and_drift", "cellgrid::extent", "cellgrid::mark",
+                                  "cellgrid::keep",      "cellgrid::clear",  "cellgrid::count",
+                                  "cellgrid::scan",      "cellgrid::place",  "cellgrid::settle"};
   labels.insert(labels.end(), static_cast<size_t>(fields), "cellgrid::permute");
-  for (const char* label : {"cellgrid::count_clusters", "cellgrid::cut_clusters", "cellgrid::largest_h", "cellgrid::tile_h",
-                            "cellgrid::reach", "cellgrid::list", "swe::density", "swe::force", "swe::accelerate"})
+  for (const char* label :
+       {"cellgrid::count_clusters", "cellgrid::cut_clusters", "cellgrid::largest_h", "cellgrid::tile_h",
+        "cellgrid::reach", "cellgrid::list", "swe::density", "swe::force", "swe::accelerate"})
     labels.emplace_back(label);
   return labels;
 }

@@ -1,5 +1,6 @@
-// Runs a hidden test of this program again with other numbers of threads: Kokkos' number is fixed once it has started.
-// The hidden test (tag [.]) calls say(); the same words must come back whatever the number of threads.
+// Runs a hidden test of this program again with other numbers of threads: Kokkos' number is fixed once it has
+// started. The hidden test (tag [.]) calls say(); the same words must come back whatever the number of
+// threads.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -29,7 +30,8 @@ inline std::string said(const std::string& hidden_test, int threads) {
   std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
   const char* emulator = std::getenv("FRESHET_TEST_EMULATOR");  // of a program that is not for this machine
   program = (emulator ? std::string(emulator) + " '" : "'") + program + "'";
-  const std::string command = "FRESHET_TEST_THREADS=" + std::to_string(threads) + " " + program + " '" + hidden_test + "' 2>&1";
+  const std::string command =
+      "FRESHET_TEST_THREADS=" + std::to_string(threads) + " " + program + " '" + hidden_test + "' 2>&1";
   FILE* pipe = popen(command.c_str(), "r");
   std::string said;
   std::array<char, 256> line{};

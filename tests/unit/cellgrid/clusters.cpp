@@ -58,7 +58,8 @@ double distance(const Point& a, const Point& b) {
 // r / max(h_i, h_j)
 template <int D>
 double distance(const Listed<D>& s, int i, int j) {
-  return distance(s.point(i), s.point(j)) / std::max(s.h[static_cast<size_t>(i)], s.h[static_cast<size_t>(j)]);
+  return distance(s.point(i), s.point(j)) /
+         std::max(s.h[static_cast<size_t>(i)], s.h[static_cast<size_t>(j)]);
 }
 
 struct Faults {
@@ -74,7 +75,7 @@ void check_cluster(const Listed<D>& s, const Lanes& me, const std::vector<int>& 
     double nearest = 1e300;
     for (int l = 0; l < me.count; ++l) nearest = std::min(nearest, distance(s, me.particle(l), j));
     const int count = times[static_cast<size_t>(j)];
-    faults.missing += nearest < sure * (1 - 1e-12) && count == 0;   // 1e-12: both sides round
+    faults.missing += nearest < sure * (1 - 1e-12) && count == 0;  // 1e-12: both sides round
     faults.needless += nearest > sure * (1 + 1e-12) && count > 0;
     faults.twice += count > 1;
   }
@@ -86,7 +87,8 @@ Lanes part_of(const Lanes& me, int part) {
   return count > 0 ? Lanes{me.first + first, count} : Lanes{me.first + me.count - 1, 1};
 }
 
-// The lists of the parts against all particles, too. Where lists are longer than a place can say (255) a part has the whole list.
+// The lists of the parts against all particles, too. Where lists are longer than a place can say (255) a part
+// has the whole list.
 template <int D>
 void check_parts(const Listed<D>& s, int c, Faults& faults) {
   std::vector<int> times;
@@ -109,7 +111,9 @@ Faults faults_of(const Listed<D>& s) {
     const Lanes me = s.clusters(c);
     for (int l = 0; l < me.count; ++l) {
       ++covered[static_cast<size_t>(me.particle(l))];
-      if (D == 2) faults.mixed_rows += s.order.rows().row_of(s.point(me.particle(l))[1]) != s.order.rows().row_of(s.point(me.first)[1]);
+      if (D == 2)
+        faults.mixed_rows +=
+            s.order.rows().row_of(s.point(me.particle(l))[1]) != s.order.rows().row_of(s.point(me.first)[1]);
     }
     times.assign(covered.size(), 0);
     s.list.view().for_each(c, [&](int j) { ++times[static_cast<size_t>(j)]; });
@@ -123,8 +127,8 @@ Faults faults_of(const Listed<D>& s) {
 template <int D>
 void require_faultless(const Listed<D>& s) {
   const Faults f = faults_of(s);
-  INFO("D " << D << ": missing " << f.missing << ", twice " << f.twice << ", needless " << f.needless << ", uncovered "
-            << f.uncovered << ", mixed rows " << f.mixed_rows);
+  INFO("D " << D << ": missing " << f.missing << ", twice " << f.twice << ", needless " << f.needless
+            << ", uncovered " << f.uncovered << ", mixed rows " << f.mixed_rows);
   CHECK(f.sum() == 0);
 }
 
@@ -146,11 +150,13 @@ TEST_CASE("clusters: random particles") {
 
 TEST_CASE("clusters: a lattice, also one whose points lie on the borders of bins and rows") {
   check([](int d) { return test::lattice(d, {0, 40, 0, 37}, dx); }, constant(1.2 * dx));
-  check([](int d) {
+  check(
+      [](int d) {
     auto points = test::lattice(d, {-20, 20, -18, 18}, dx);
     for (Point& p : points) p = {p[0] - 0.5 * dx, d == 2 ? p[1] - 0.5 * dx : 0};
     return points;
-  }, constant(dx));  // here 2 h is a distance that occurs
+      },
+      constant(dx));  // here 2 h is a distance that occurs
 }
 
 TEST_CASE("clusters: strongly varying h") {
@@ -159,7 +165,9 @@ TEST_CASE("clusters: strongly varying h") {
   auto random = std::make_shared<test::Random>(7);
   const Length anyhow = [random](const Point&) { return dx * (*random)(0.5, 2.5); };
   check([](int d) { return test::random_points(d, 1500, d == 2 ? 2.0 : 40.0, 3); }, anyhow);
-  const Length lone = [](const Point& p) { return std::abs(p[0] - 1) < 0.03 ? 20 * dx : 0.3 * dx; };  // one long arm
+  const Length lone = [](const Point& p) {
+    return std::abs(p[0] - 1) < 0.03 ? 20 * dx : 0.3 * dx;
+  };  // one long arm
   check([](int d) { return test::random_points(d, 1000, d == 2 ? 2.0 : 40.0, 4); }, lone);
 }
 
@@ -188,7 +196,8 @@ TEST_CASE("clusters: no particle and one particle") {
 }
 
 TEST_CASE("clusters: particles along the rim of a box") {
-  check([](int d) {
+  check(
+      [](int d) {
     std::vector<Point> rim;
     for (int k = 0; k <= 100; ++k) {
       const double s = 0.02 * k;
@@ -196,16 +205,19 @@ TEST_CASE("clusters: particles along the rim of a box") {
       if (d == 2) rim.insert(rim.end(), {{s, 2}, {0, s}, {2, s}});  // corners twice: particles on one point
     }
     return rim;
-  }, constant(1.2 * dx));
+      },
+      constant(1.2 * dx));
 }
 
 TEST_CASE("clusters: two islands far apart") {
-  check([](int d) {
+  check(
+      [](int d) {
     auto points = test::random_points(d, 500, 0.8, 9);
     const auto other = test::random_points(d, 500, 0.8, 10, {1e5 * dx, d == 2 ? -2e5 * dx : 0});
     points.insert(points.end(), other.begin(), other.end());
     return points;
-  }, constant(1.2 * dx));
+      },
+      constant(1.2 * dx));
 }
 
 TEST_CASE("clusters: a list made again after particles moved and h grew") {
@@ -220,11 +232,12 @@ TEST_CASE("clusters: a list made again after particles moved and h grew") {
 
 TEST_CASE("clusters: sources of another set, as for walls") {
   Listed<2> sources(test::random_points(2, 700, 2.0, 13), [](const Point&) { return 0.0; });
-  Listed<2> targets(test::random_points(2, 900, 1.5, 14), [](const Point& p) { return p[1] > 0 ? 3 * dx : dx; });
+  Listed<2> targets(test::random_points(2, 900, 1.5, 14),
+                    [](const Point& p) { return p[1] > 0 ? 3 * dx : dx; });
   NeighbourList near(4);
-  near.build<2>(targets.clusters, {targets.fields.vector<2>("x", "y"), targets.fields.real("h"),
-                                   sources.order.rows(), sources.fields.vector<2>("x", "y"),
-                                   sources.fields.real("h"), 1.0, margin});
+  near.build<2>(targets.clusters,
+                {targets.fields.vector<2>("x", "y"), targets.fields.real("h"), sources.order.rows(),
+                 sources.fields.vector<2>("x", "y"), sources.fields.real("h"), 1.0, margin});
   long wrong = 0;
   for (int c = 0; c < targets.clusters.size(); ++c) {
     std::vector<int> times(700);
@@ -233,7 +246,8 @@ TEST_CASE("clusters: sources of another set, as for walls") {
       bool wanted = false;
       for (int l = 0; l < targets.clusters(c).count; ++l) {
         const int i = targets.clusters(c).particle(l);
-        wanted = wanted || distance(targets.point(i), sources.point(k)) < (1 + margin) * targets.h[static_cast<size_t>(i)];
+        wanted = wanted || distance(targets.point(i), sources.point(k)) <
+                               (1 + margin) * targets.h[static_cast<size_t>(i)];
       }
       wrong += times[static_cast<size_t>(k)] != wanted;
     }
@@ -249,12 +263,14 @@ TEST_CASE("clusters: a position that is not a number leaves the others' lists al
   for (int c = 0; c < s.clusters.size(); ++c) {
     const Lanes me = s.clusters(c);
     bool lost = false;
-    for (int l = 0; l < me.count; ++l) lost = lost || !std::isfinite(s.point(me.particle(l))[0] + s.point(me.particle(l))[1]);
+    for (int l = 0; l < me.count; ++l)
+      lost = lost || !std::isfinite(s.point(me.particle(l))[0] + s.point(me.particle(l))[1]);
     if (lost) continue;
     std::vector<int> times(600);
     s.list.view().for_each(c, [&](int j) { ++times[static_cast<size_t>(j)]; });
     for (int l = 0; l < me.count; ++l)
-      for (int j = 0; j < 600; ++j) missing += distance(s, me.particle(l), j) < 2 && times[static_cast<size_t>(j)] == 0;
+      for (int j = 0; j < 600; ++j)
+        missing += distance(s, me.particle(l), j) < 2 && times[static_cast<size_t>(j)] == 0;
   }
   CHECK(missing == 0);
 }

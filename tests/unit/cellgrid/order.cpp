@@ -52,7 +52,8 @@ int misplaced(const Sorted& s) {
   int wrong = 0;
   for (int i = 0; i < s.fields.size(); ++i) {
     const int r = s.row(i), b = s.bin(i);
-    wrong += i < rows.begin(r, b) || i >= rows.end(r, b) || i < rows.row_begin(r) || i >= rows.row_begin(r + 1);
+    wrong +=
+        i < rows.begin(r, b) || i >= rows.end(r, b) || i < rows.row_begin(r) || i >= rows.row_begin(r + 1);
   }
   return wrong + (rows.begin(0, 0) != 0) + (rows.row_begin(rows.rows) != s.fields.size());
 }
@@ -167,7 +168,8 @@ TEST_CASE("order: rows and bins stay where they are when the water moves") {
   const Rows &a = all.order.rows(), &b = half.order.rows();
   int differ = 0;
   for (const Point& p : right)
-    differ += a.first_row + a.row_of(p[1]) != b.first_row + b.row_of(p[1]) || a.first_bin + a.bin_of(p[0]) != b.first_bin + b.bin_of(p[0]);
+    differ += a.first_row + a.row_of(p[1]) != b.first_row + b.row_of(p[1]) ||
+              a.first_bin + a.bin_of(p[0]) != b.first_bin + b.bin_of(p[0]);
   CHECK(differ == 0);
   CHECK(b.first_row > a.first_row);
   CHECK(b.first_bin > a.first_bin);
@@ -187,7 +189,8 @@ TEST_CASE("order: a period has as many cells as fit in, wherever its points lie"
 TEST_CASE("order: no particle, one particle") {
   const int dimension = GENERATE(1, 2);
   require_sorted(Sorted(dimension, {}), {});
-  require_sorted(Sorted(dimension, {{3.0, dimension == 2 ? -4.0 : 0.0}}), {{3.0, dimension == 2 ? -4.0 : 0.0}});
+  require_sorted(Sorted(dimension, {{3.0, dimension == 2 ? -4.0 : 0.0}}),
+                 {{3.0, dimension == 2 ? -4.0 : 0.0}});
 }
 
 TEST_CASE("order: a position that is not a number loses no particle") {
@@ -224,7 +227,8 @@ TEST_CASE("order: a stray particle does not make a huge grid") {
   if (along != 1) points[500][0] = far;
   if (along != 0 && dimension == 2) points[500][1] = -far;
   const Sorted s(dimension, points);
-  // The domain of 4000 x 4000 spacings has 2000 rows of 250 blocks, and one of each where its ends fall on cells'.
+  // The domain of 4000 x 4000 spacings has 2000 rows of 250 blocks, and one of each where its ends fall on
+  // cells'.
   CHECK(blocks(s.order.rows()) <= 2001 * 251);
   require_sorted(s, points);
   // A domain of 1e14 square spacings gets wider cells, whatever the points.
@@ -249,7 +253,9 @@ void check_runs(const Sorted& s, const Point& at, double distance) {
   CHECK(twice == 0);
 }
 
-TEST_CASE("order: two ponds far apart need no wider bins and hardly more memory, and every place finds its particles") {
+TEST_CASE(
+    "order: two ponds far apart need no wider bins and hardly more memory, and every place finds its "
+    "particles") {
   auto points = test::random_points(2, 1500, 2.0, 61, {0, 0});
   const auto other = test::random_points(2, 1500, 2.0, 62, {70, 30});  // 160 times the area of both
   points.insert(points.end(), other.begin(), other.end());
@@ -257,9 +263,11 @@ TEST_CASE("order: two ponds far apart need no wider bins and hardly more memory,
   require_sorted(s, points);
   CHECK(s.order.rows().bin_width == 0.5 * dx);
   CHECK(s.order.rows().row_height == 2 * dx);
-  CHECK(cells(s.order.rows()) <= 2 * 21 * 4 * Rows::block_bins);  // two ponds of 21 rows, each across four blocks at most
+  CHECK(cells(s.order.rows()) <=
+        2 * 21 * 4 * Rows::block_bins);  // two ponds of 21 rows, each across four blocks at most
   test::Random random(63);
-  for (int k = 0; k < 40; ++k) check_runs(s, {random(-3, 73), random(-3, 33)}, random(0.1, 2));  // dry places too
+  for (int k = 0; k < 40; ++k)
+    check_runs(s, {random(-3, 73), random(-3, 33)}, random(0.1, 2));  // dry places too
   for (int k = 0; k < 40; ++k) check_runs(s, points[static_cast<size_t>(70 * k)], random(0.1, 2));
 }
 
@@ -268,7 +276,8 @@ TEST_CASE("order: the largest h near a place is never too small, and far ones do
   Sorted s(2, points);
   const auto x = s.fields.real("x"), y = s.fields.real("y"), h = s.fields.real("h");
   test::Random random(52);
-  for (int i = 0; i < s.fields.size(); ++i) h(i) = x(i) > 0 ? 5 * dx : dx * random(0.8, 1.2);  // a front at x = 0
+  for (int i = 0; i < s.fields.size(); ++i)
+    h(i) = x(i) > 0 ? 5 * dx : dx * random(0.8, 1.2);  // a front at x = 0
   s.order.measure_reach(s.fields, h, 2.1);
   int wrong = 0;
   for (int i = 0; i < s.fields.size(); i += 7) {

@@ -1,5 +1,5 @@
-// Packs lane by lane against plain scalars, on registers of every width whatever the machine has: eight doubles and sixteen
-// floats in one register of 64 bytes, two of 32 and four of 16.
+// Packs lane by lane against plain scalars, on registers of every width whatever the machine has: eight
+// doubles and sixteen floats in one register of 64 bytes, two of 32 and four of 16.
 #include "cellgrid/simd/distance.hpp"
 #include "cellgrid/simd/lanes.hpp"
 
@@ -60,7 +60,9 @@ double worst_over(double decades, unsigned seed, const Word& word, const Exact& 
     const P a = P::of([&](int) { return static_cast<Element<P>>(random(1, 10) * std::pow(10, exponent)); });
     const P r = word(a);
     for (int l = 0; l < width<P>; ++l)
-      worst = std::max(worst, std::abs(static_cast<double>(lane_of(r, l)) / exact(static_cast<double>(lane_of(a, l))) - 1));
+      worst = std::max(
+          worst,
+          std::abs(static_cast<double>(lane_of(r, l)) / exact(static_cast<double>(lane_of(a, l))) - 1));
   }
   return worst;
 }
@@ -111,7 +113,8 @@ TEMPLATE_TEST_CASE("pack: smaller, larger, clamp", "", EVERY_PACK) {
   require_lanes(smaller(a, b), [](int l) { return std::min(-3.0 + l, 0.5); });
   require_lanes(larger(a, b), [](int l) { return std::max(-3.0 + l, 0.5); });
   require_lanes(larger(a, TestType(0.0)), [](int l) { return std::max(-3.0 + l, 0.0); });
-  require_lanes(clamp(a, TestType(-1.5), TestType(1.5)), [](int l) { return std::min(std::max(-3.0 + l, -1.5), 1.5); });
+  require_lanes(clamp(a, TestType(-1.5), TestType(1.5)),
+                [](int l) { return std::min(std::max(-3.0 + l, -1.5), 1.5); });
   require_lanes(larger(-a, TestType(0.0)), [](int l) { return std::max(3.0 - l, 0.0); });
 }
 
@@ -161,10 +164,12 @@ TEMPLATE_TEST_CASE("pack: largest and smallest lane", "", EVERY_PACK) {
 }
 
 TEMPLATE_TEST_CASE("pack: reciprocal square root over the range of its numbers", "", EVERY_PACK) {
-  // AVX-512: 14-bit estimate (relative error e <= 2^-14) and one third-order step, (5/2) e^3 = 5.7e-13 at most; elsewhere a root and
-  // a quotient, three roundings. In single precision: 3/2 e^2 = 5.6e-9 and four roundings of 6e-8.
-  const double worst = worst_over<TestType>(in_single<TestType> ? 30 : 200, 1, [](const TestType& a) { return rsqrt(a); },
-                                            [](double a) { return 1 / std::sqrt(a); });
+  // AVX-512: 14-bit estimate (relative error e <= 2^-14) and one third-order step, (5/2) e^3 = 5.7e-13 at
+  // most; elsewhere a root and a quotient, three roundings. In single precision: 3/2 e^2 = 5.6e-9 and four
+  // roundings of 6e-8.
+  const double worst = worst_over<TestType>(
+      in_single<TestType> ? 30 : 200, 1, [](const TestType& a) { return rsqrt(a); },
+      [](double a) { return 1 / std::sqrt(a); });
   CHECK(worst < (in_single<TestType> ? 2.5e-7 : 1e-12));
 }
 
@@ -238,7 +243,8 @@ TEMPLATE_TEST_CASE("pack: whole numbers and look-ups", "", EVERY_DOUBLE) {
   double table[32];
   for (int k = 0; k < 32; ++k) table[k] = 1.5 * k * k;
   require_lanes(gather(table + 2, cut), [&](int l) { return table[2 + static_cast<int>(0.9 + 1.2 * l)]; });
-  require_lanes(gather(table + 12, to_index(-a)), [&](int l) { return table[12 - static_cast<int>(0.9 + 1.2 * l)]; });
+  require_lanes(gather(table + 12, to_index(-a)),
+                [&](int l) { return table[12 - static_cast<int>(0.9 + 1.2 * l)]; });
 }
 
 TEMPLATE_TEST_CASE("pack: between precisions and whole numbers of 16 bits", "", EVERY_DOUBLE) {
@@ -256,9 +262,10 @@ TEMPLATE_TEST_CASE("pack: between precisions and whole numbers of 16 bits", "", 
 }
 
 TEMPLATE_TEST_CASE("pack: reciprocal cube root over sixty decades", "", EVERY_DOUBLE) {
-  // The start is 8.2 % off; a Newton step leaves 2 e^2 of an error e, four of them 1.4e-2, 3.6e-4, 2.6e-7, 1.9e-13.
-  const double worst = worst_over<TestType>(30, 2, [](const TestType& a) { return inverse_cbrt(a); },
-                                            [](double a) { return 1 / std::cbrt(a); });
+  // The start is 8.2 % off; a Newton step leaves 2 e^2 of an error e, four of
+  // them 1.4e-2, 3.6e-4, 2.6e-7, 1.9e-13.
+  const double worst = worst_over<TestType>(
+      30, 2, [](const TestType& a) { return inverse_cbrt(a); }, [](double a) { return 1 / std::cbrt(a); });
   CHECK(worst < 3e-13);
 }
 
@@ -282,7 +289,8 @@ TEST_CASE("pack: the first lanes of a cluster") {
 }
 
 TEST_CASE("pack: passed by value between objects") {
-  const Lane a = lanes_of<Lane>([](int l) { return 1.0 + l; }), b = lanes_of<Lane>([](int l) { return 10.0 - l; });
+  const Lane a = lanes_of<Lane>([](int l) { return 1.0 + l; }),
+             b = lanes_of<Lane>([](int l) { return 10.0 - l; });
   const auto check = [](const Lane& found, const auto& expected) {
     for (int l = 0; l < lanes; ++l) CHECK(lane_of(found, l) == expected(l));
   };

@@ -81,7 +81,8 @@ TEST_CASE("the weighted sum over stored pairs equals the dense product", "[pairs
   const auto x = p.fields.real("x");
   for (int s = 0; s < view.slices(); ++s)
     view.for_each(s, [&](int e, PairIndex) {
-      for (int l = 0; l < lanes; ++l) a(PairView::at(e, l)) = coefficient(view(s).particle(l), view.j(PairView::at(e, l)));
+      for (int l = 0; l < lanes; ++l)
+        a(PairView::at(e, l)) = coefficient(view(s).particle(l), view.j(PairView::at(e, l)));
     });
   for (int s = 0; s < view.slices(); ++s) view(s).store(y, view.weighted_sum(s, a, x));
   double largest = 0;

@@ -15,8 +15,9 @@ namespace {
 constexpr double dx = 0.1;  // m
 
 std::vector<swe::AnyStabilisation> stabilisations() {
-  return {swe::NoStabilisation{},        swe::ArtificialViscosity{0.8, 2}, swe::LaxFriedrichs{0.8},
-          swe::LaxFriedrichsMuscl{0.8}, swe::TwoShock{9.81},              swe::TwoShockMuscl{9.81}};
+  return {swe::NoStabilisation{},  swe::ArtificialViscosity{0.8, 2},
+          swe::LaxFriedrichs{0.8}, swe::LaxFriedrichsMuscl{0.8},
+          swe::TwoShock{9.81},     swe::TwoShockMuscl{9.81}};
 }
 
 double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {

@@ -52,14 +52,18 @@ TEST_CASE("sums: a shuffled array gives the same bits") {
   for (unsigned seed = 1; seed <= 5; ++seed) {
     const std::vector<double> other = shuffled(values, seed);
     differ += !same_bits(sum(other), expected);
-    plain_differ += std::accumulate(other.begin(), other.end(), 0.0) != std::accumulate(values.begin(), values.end(), 0.0);
+    plain_differ += std::accumulate(other.begin(), other.end(), 0.0) !=
+                    std::accumulate(values.begin(), values.end(), 0.0);
   }
   CHECK(differ == 0);
   if (n > 500) CHECK(plain_differ > 0);  // the test does look at something
 }
 
-TEST_CASE("sums: what a term adds does not depend on who stands beside it, on the rows of slices, on the largest's place") {
-  // The largest term comes early, late, or alone in its slice; every place asks the sum to begin anew at another moment.
+TEST_CASE(
+    "sums: what a term adds does not depend on who stands beside it, on the rows of slices, on the largest's "
+    "place") {
+  // The largest term comes early, late, or alone in its slice; every place asks the sum to begin anew at
+  // another moment.
   std::vector<double> values = wild(3000, 2.0, 11);
   values.push_back(3e19);
   const double expected = sum(values);
@@ -71,7 +75,8 @@ TEST_CASE("sums: what a term adds does not depend on who stands beside it, on th
 }
 
 TEST_CASE("sums: terms 2^64 smaller than the largest count alike before it and after it") {
-  const double big = 0x1p96, small = 4e9;  // small lies in the upper half of what the third part below big's holds
+  const double big = 0x1p96,
+               small = 4e9;  // small lies in the upper half of what the third part below big's holds
   const std::vector<double> alone{sum({small, big, -big}), sum({big, small, -big}), sum({big, -big, small})};
   // One a slice: in slices of eight the largest of them decides at once.
   std::vector<double> apart(3 * 8, 0.0), turned(3 * 8, 0.0);
@@ -91,16 +96,19 @@ TEST_CASE("sums: terms 2^64 smaller than the largest count alike before it and a
 }
 
 TEST_CASE("sums: products are terms of their own, whole slices and the last one alike") {
-  // In lanes beside each other a and b swapped: contracted into multiply-adds, a b would leave another rest in a slice that is not full.
+  // In lanes beside each other a and b swapped: contracted into multiply-adds, a b would leave another rest
+  // in a slice that is not full.
   for (const int n : {5, 8, 13, 1000, 1003}) {
     const std::vector<double> a = wild(n, 5, 21), b = wild(n, 5, 22);
     std::vector<double> products;
-    for (int i = 0; i < n; ++i) products.push_back(a[static_cast<std::size_t>(i)] * b[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < n; ++i)
+      products.push_back(a[static_cast<std::size_t>(i)] * b[static_cast<std::size_t>(i)]);
     const Field<double> fa = field(a), fb = field(b);
-    const double together = sum_of_particles<1>("test::dot", n, KOKKOS_LAMBDA(const Lanes& me) {
-      return LaneAddends<1>{{me.load(fa) * me.load(fb)}};
-    })[0];
-    const double apart = sum_of_particles<1>("test::dot", n, KOKKOS_LAMBDA(int i) { return Addends<1>{{fa(i) * fb(i)}}; })[0];
+    const double together = sum_of_particles<1>(
+        "test::dot", n,
+        KOKKOS_LAMBDA(const Lanes& me) { return LaneAddends<1>{{me.load(fa) * me.load(fb)}}; })[0];
+    const double apart = sum_of_particles<1>(
+        "test::dot", n, KOKKOS_LAMBDA(int i) { return Addends<1>{{fa(i) * fb(i)}}; })[0];
     CHECK(same_bits(together, sum(products)));
     CHECK(same_bits(apart, sum(products)));
   }
@@ -109,7 +117,8 @@ TEST_CASE("sums: products are terms of their own, whole slices and the last one 
 TEST_CASE("sums: as near to the true sum as a double is") {
   const double decades = GENERATE(0.0, 3.0, 8.0);
   const std::vector<double> values = wild(50000, decades, 5);
-  // The true sum by doubles that carry their errors (Neumaier): to 1e-16 of the result and n 1e-32 of the sizes.
+  // The true sum by doubles that carry their errors (Neumaier): to 1e-16 of the result and n 1e-32 of the
+  // sizes.
   double s = 0, c = 0, size = 0;
   for (const double v : values) {
     const double t = s + v;
@@ -134,7 +143,8 @@ TEST_CASE("sums: exact where doubles are not") {
 }
 
 TEST_CASE("sums: what is not finite is seen, whatever else there is") {
-  const double infinite = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinite = std::numeric_limits<double>::infinity(),
+               nan = std::numeric_limits<double>::quiet_NaN();
   const std::size_t at = GENERATE(0u, 5u, 600u, 999u);
   std::vector<double> values = wild(1000, 1, 7);
   values[at] = nan;
@@ -151,7 +161,10 @@ TEST_CASE("sums: several at once are the same as each alone") {
   const int n = 1013;
   const std::vector<double> a = wild(n, 1, 31), b = wild(n, 9, 32), c = wild(n, 20, 33);
   const Field<double> fa = field(a), fb = field(b), fc = field(c);
-  const auto all = sum_of_particles<3>("test::three", n, KOKKOS_LAMBDA(int i) { return Addends<3>{{fa(i), fb(i), fc(i)}}; });
+  const auto all = sum_of_particles<3>(
+      "test::three", n, KOKKOS_LAMBDA(int i) {
+        return Addends<3>{{fa(i), fb(i), fc(i)}};
+      });
   CHECK(same_bits(all[0], sum(a)));
   CHECK(same_bits(all[1], sum(b)));
   CHECK(same_bits(all[2], sum(c)));

@@ -51,7 +51,8 @@ TEST_CASE("titles and measurements carry what each gauge shows, in its unit") {
   gauges[1].what = Gauge::What::front;
   GaugeFile(scratch / "gauges.csv").create(gauges);
   write_measured(scratch / "measured.csv", gauges);
-  CHECK(read_text(scratch / "gauges.csv") == "t [s],ch5 pressure [Pa],ch5 dry,\"left, far front [m]\",\"left, far dry\"\n");
+  CHECK(read_text(scratch / "gauges.csv") ==
+        "t [s],ch5 pressure [Pa],ch5 dry,\"left, far front [m]\",\"left, far dry\"\n");
   CHECK(read_text(scratch / "measured.csv") == "t [s],ch5 [Pa]\n0,5000\n");
 }
 

@@ -126,11 +126,13 @@ TEST_CASE("particle files read no field that nobody asked for") {
     return std::set<std::string>(read.begin(), read.end());
   };
   CHECK(labels({{"h"}}) == std::set<std::string>{"kind", "x", "y", "h", "id"});
-  CHECK(labels({}) == std::set<std::string>{"kind", "x", "y", "bed", "depth", "u", "v", "mass", "id"});  // mass: of size
+  CHECK(labels({}) ==
+        std::set<std::string>{"kind", "x", "y", "bed", "depth", "u", "v", "mass", "id"});  // mass: of size
 }
 
 // Numbers that float32 holds exactly.
-TEST_CASE("particle files tell what each particle covers: a square's side, in 1-D a length, 0 where it is dry") {
+TEST_CASE(
+    "particle files tell what each particle covers: a square's side, in 1-D a length, 0 where it is dry") {
   const bool two_d = GENERATE(true, false);
   const test::Scratch scratch;
   FieldSet fields = three_particles(two_d);
@@ -144,7 +146,8 @@ TEST_CASE("particle files tell what each particle covers: a square's side, in 1-
   CHECK(all.open("Step#0").reals("size") == std::vector<double>{two_d ? 2.0 : 4.0, 0});
 }
 
-TEST_CASE("particle files of points without a depth have the spacing for a size, where it varies each point's") {
+TEST_CASE(
+    "particle files of points without a depth have the spacing for a size, where it varies each point's") {
   const test::Scratch scratch;
   FieldSet fields(2);
   for (const char* name : {"x", "y", "u", "v", "p"}) fields.real(name, "1", Carry::state);

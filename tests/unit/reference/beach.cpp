@@ -1,4 +1,5 @@
-// The exact wave on a plane beach: against the equations, and against the published solution of benchmark 1 (ISEC 2004).
+// The exact wave on a plane beach: against the equations, and against the published solution of benchmark 1
+// (ISEC 2004).
 #include "src/reference/beach.hpp"
 
 #include <catch2/catch.hpp>
@@ -22,7 +23,8 @@ TEST_CASE("beach wave: it satisfies the shallow-water equations where it runs up
     const double t = 150, s = 0.01 * x, tau = 0.05;
     const FlowState here = wave->at(x, 0, t), west = wave->at(x - s, 0, t), east = wave->at(x + s, 0, t);
     const FlowState before = wave->at(x, 0, t - tau), after = wave->at(x, 0, t + tau);
-    const double d_t = (after.depth - before.depth) / (2 * tau), flux_x = (east.depth * east.u - west.depth * west.u) / (2 * s);
+    const double d_t = (after.depth - before.depth) / (2 * tau),
+                 flux_x = (east.depth * east.u - west.depth * west.u) / (2 * s);
     const double u_t = (after.u - before.u) / (2 * tau), advection = here.u * (east.u - west.u) / (2 * s);
     const double pressure = g * ((east.depth - west.depth) / (2 * s) - 0.1);
     CAPTURE(x);
@@ -47,7 +49,8 @@ TEST_CASE("beach wave: the published profiles") {
   const auto rows = test::number_rows(*start);
   REQUIRE(rows.size() > 900);
   for (const auto& row : rows)
-    if (row[0] > 0) CHECK(wave->at(row[0], 0, 0).depth - 0.1 * row[0] == Approx(row[1]).margin(1e-3));  // of waves of 9 m
+    if (row[0] > 0)
+      CHECK(wave->at(row[0], 0, 0).depth - 0.1 * row[0] == Approx(row[1]).margin(1e-3));  // of waves of 9 m
   for (const int t : {160, 175, 220}) {
     const auto file = test::data_file("landslide_tsunami_bp1/t" + std::to_string(t) + ".csv");
     if (!file) return;
@@ -59,7 +62,8 @@ TEST_CASE("beach wave: the published profiles") {
       level += std::abs(state.depth - 0.1 * row[0] - row[1]);
       velocity += std::abs(state.u - row[2]);
     }
-    // Given to 0.5 cm at places rounded to 1 m; the level falls by 6 % a metre at the tips: a tenth of a metre on average.
+    // Given to 0.5 cm at places rounded to 1 m; the level falls by 6 % a metre at the tips: a tenth of a
+    // metre on average.
     CHECK(level / static_cast<double>(profile.size()) <= 0.1);
     CHECK(velocity / static_cast<double>(profile.size()) <= 0.1);
   }

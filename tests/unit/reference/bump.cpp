@@ -9,8 +9,8 @@ using namespace freshet;
 
 namespace {
 
-constexpr double g = 9.81;             // m/s2
-const Bump bump{0.2, 5, 2};            // thesis (4.6)
+constexpr double g = 9.81;   // m/s2
+const Bump bump{0.2, 5, 2};  // thesis (4.6)
 
 double head(const FlowState& s, double x) { return s.depth + s.u * s.u / (2 * g) + bump.level(x); }
 double momentum(double depth, double q) { return q * q / (g * depth) + 0.5 * depth * depth; }
@@ -20,7 +20,8 @@ double froude(const FlowState& s) { return s.u / std::sqrt(g * s.depth); }
 
 TEST_CASE("bump: transcritical flow keeps discharge and energy and is critical on the crest") {
   const SteadyBumpFlow exact(bump, {0.435, {}, {}}, g);
-  CHECK(exact.discharge() == Approx(0.18).epsilon(1e-3));  // what 0.435 m/s stand for (Goutal and Maurel 1997)
+  CHECK(exact.discharge() ==
+        Approx(0.18).epsilon(1e-3));  // what 0.435 m/s stand for (Goutal and Maurel 1997)
   CHECK(exact.at(0, 0, 0).u == Approx(0.435));
   CHECK_FALSE(exact.jump());
   for (double x = 0; x < 10; x += 0.37) {
@@ -37,7 +38,8 @@ TEST_CASE("bump: the jump keeps the momentum and reaches the depth at the end") 
   REQUIRE(exact.jump());
   CHECK(*exact.jump() > 6);
   CHECK(*exact.jump() < 7);
-  CHECK(momentum(exact.depth_before(), exact.discharge()) == Approx(momentum(exact.depth_behind(), exact.discharge())));
+  CHECK(momentum(exact.depth_before(), exact.discharge()) ==
+        Approx(momentum(exact.depth_behind(), exact.discharge())));
   CHECK(exact.depth_before() < exact.depth_behind());
   CHECK(exact.at(10, 0, 0).depth == Approx(0.33));
   CHECK(head(exact.at(10, 0, 0), 10) < head(exact.at(0, 0, 0), 0));  // a jump loses energy

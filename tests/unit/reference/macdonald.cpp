@@ -20,7 +20,9 @@ double depth_slope(double x) { return -0.032 * (x / 1000 - 0.5) * (depth(x, 0) -
 double friction_slope(double x) { return std::pow(manning * 2, 2) / std::pow(depth(x, 0), 10.0 / 3); }
 
 // dz/dx of the differential equation.
-double bed_slope(double x) { return (4 / (g * std::pow(depth(x, 0), 3)) - 1) * depth_slope(x) - friction_slope(x); }
+double bed_slope(double x) {
+  return (4 / (g * std::pow(depth(x, 0), 3)) - 1) * depth_slope(x) - friction_slope(x);
+}
 
 }  // namespace
 
@@ -28,7 +30,8 @@ TEST_CASE("macdonald: the bed satisfies the differential equation and ends at ze
   const auto bed = macdonald_bed({depth, 2}, manning, length, g);
   CHECK(bed(length, 0) == Approx(0).margin(1e-12));
   // Central differences over 2 m: 1/6 of the curvature of the slope, 0.0085/(177 m)^2.
-  for (double x = 2; x < 999; x += 13.7) CHECK((bed(x + 1, 0) - bed(x - 1, 0)) / 2 == Approx(bed_slope(x)).margin(5e-7));
+  for (double x = 2; x < 999; x += 13.7)
+    CHECK((bed(x + 1, 0) - bed(x - 1, 0)) / 2 == Approx(bed_slope(x)).margin(5e-7));
   // Outside, friction stays what it is at the end.
   const double frozen = friction_slope(-10) - friction_slope(0);
   CHECK((bed(-9, 0) - bed(-11, 0)) / 2 == Approx(bed_slope(-10) + frozen).margin(5e-7));

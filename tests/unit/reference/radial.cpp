@@ -1,4 +1,5 @@
-// The radial finite-volume reference: against an exact solution, itself, conservation and two published curves.
+// The radial finite-volume reference: against an exact solution, itself, conservation and two published
+// curves.
 #include "src/reference/radial.hpp"
 
 #include <catch2/catch.hpp>
@@ -31,14 +32,15 @@ double volume(const RadialProfile& p) {
   return sum;
 }
 
-// A paraboloid of water spreads over a dry plane as d = d0/s (1 - r^2/(s L^2)), u = r s'/(2 s), s = 1 + 2 g d0 t^2/L^2:
-// put into the equations it satisfies them exactly, dry front included.
+// A paraboloid of water spreads over a dry plane as d = d0/s (1 - r^2/(s L^2)), u = r s'/(2 s), s = 1 + 2 g
+// d0 t^2/L^2: put into the equations it satisfies them exactly, dry front included.
 double spreading_error(int rings) {
   const double length = 1000, d0 = 10, t = 100, s = 1 + 2 * g * d0 * t * t / (length * length);
   const auto exact = [=](double r, double stretch) {
     return std::max(0.0, d0 / stretch * (1 - r * r / (stretch * length * length)));
   };
-  const auto flow = radial_flow([&](double r) { return exact(r, 1); }, 1.1 * length * std::sqrt(s), t, rings, g);
+  const auto flow =
+      radial_flow([&](double r) { return exact(r, 1); }, 1.1 * length * std::sqrt(s), t, rings, g);
   return l1(flow, [&](double r) { return exact(r, s); });
 }
 
@@ -51,7 +53,8 @@ double distance(const RadialDam& dam, double t, int coarse, int fine) {
 
 TEST_CASE("radial reference: a spreading paraboloid is met with nearly second order") {
   const double coarse = spreading_error(200), fine = spreading_error(1600);
-  CHECK(std::log2(coarse / fine) / 3 >= 1.5);  // the limiter at the crest and the dry front take the rest of 2
+  CHECK(std::log2(coarse / fine) / 3 >=
+        1.5);  // the limiter at the crest and the dry front take the rest of 2
   CHECK(fine <= 2e-5);
 }
 
@@ -68,7 +71,8 @@ TEST_CASE("radial reference: the default's error is a hundredth of what it is us
 
 TEST_CASE("radial reference: no water is lost and still water stays still") {
   const auto dam = [](double r) { return r < 500 ? 10.0 : 0.0; };
-  const double before = volume(radial_flow(dam, 2000, 0, 1000, g)), after = volume(radial_flow(dam, 2000, 50, 1000, g));
+  const double before = volume(radial_flow(dam, 2000, 0, 1000, g)),
+               after = volume(radial_flow(dam, 2000, 50, 1000, g));
   CHECK(after == Approx(before).epsilon(1e-12));  // rounding of 2000 steps: no depth was ever clipped at zero
   const RadialProfile still = radial_flow([](double) { return 3.0; }, 100, 20, 200, g);
   for (std::size_t k = 0; k < still.depth.size(); ++k) {
@@ -81,20 +85,23 @@ TEST_CASE("radial reference: as an exact solution it starts from the dam and poi
   const auto exact = radial_dam_break({10, 5, 100, 30, -20}, g, 500);
   CHECK(exact->at(30 + 99, -20, 0).depth == 10);
   CHECK(exact->at(30, -20 + 101, 0).depth == 5);
-  const FlowState east = exact->at(30 + 150, -20, 10), north = exact->at(30, -20 + 150, 10), far = exact->at(900, -20, 10);
+  const FlowState east = exact->at(30 + 150, -20, 10), north = exact->at(30, -20 + 150, 10),
+                  far = exact->at(900, -20, 10);
   CHECK(east.u > 1);
   CHECK(east.v == Approx(0).margin(1e-12));
   CHECK(north.v == Approx(east.u));
   CHECK(north.depth == Approx(east.depth));
   CHECK(far.depth == Approx(5).epsilon(1e-12));
   CHECK(exact->at(30, -20, 10).u == 0);
-  const auto again = radial_dam_profile({10, 5, 100, 30, -20}, 20, g, 500);  // another time makes another profile
+  const auto again =
+      radial_dam_profile({10, 5, 100, 30, -20}, 20, g, 500);  // another time makes another profile
   CHECK(exact->at(30 + 150, -20, 20).depth == again.at(150, 0).depth);
 }
 
 TEST_CASE("radial reference: a published radial solution at t = 2 s") {
   for (const bool dry : {true, false}) {
-    const auto file = test::data_file(dry ? "radial_dam_break/radial_dry_t2.csv" : "radial_dam_break/radial_wet_t2.csv");
+    const auto file =
+        test::data_file(dry ? "radial_dam_break/radial_dry_t2.csv" : "radial_dam_break/radial_wet_t2.csv");
     if (!file) return;
     const RadialProfile ours = radial_dam_profile({10, dry ? 0.0 : 1.0, 50}, 2, 9.8);  // its g is 9.8
     double difference = 0, depth = 0, flux_difference = 0, flux = 0;

@@ -136,8 +136,10 @@ TEST_CASE("Thacker's planar and radial motions satisfy the equations wherever it
 
 TEST_CASE("A steady eddy satisfies the equations and turns fastest at its radius") {
   const auto exact = eddy({1, 1.5, 2, 10, -3}, g);  // Froude number 0.5
-  for (const std::array<double, 2>& p : std::vector<std::array<double, 2>>{{11, -3}, {10.5, -2}, {8.5, -4.5}, {12, -3.1}}) {
-    const Residual r = residual(*exact, flat, {p[0], p[1], 0}, 1e-3, 0.1);  // truncates at (s / radius)^2 = 2.5e-7
+  for (const std::array<double, 2>& p :
+       std::vector<std::array<double, 2>>{{11, -3}, {10.5, -2}, {8.5, -4.5}, {12, -3.1}}) {
+    const Residual r =
+        residual(*exact, flat, {p[0], p[1], 0}, 1e-3, 0.1);  // truncates at (s / radius)^2 = 2.5e-7
     CHECK(r.mass < 2e-6);
     CHECK(r.momentum_x < 2e-6);
     CHECK(r.momentum_y < 2e-6);
@@ -197,6 +199,7 @@ TEST_CASE("Ritter: mass is conserved, the equations hold, the tip is dry") {
   const double d_t = (at(0, e).depth - at(0, -e).depth) / (2 * e), u_t = (at(0, e).u - at(0, -e).u) / (2 * e);
   const auto flux = [&](double dx) { return at(dx, 0).depth * at(dx, 0).u; };
   CHECK(d_t + (flux(e) - flux(-e)) / (2 * e) == Approx(0).margin(1e-6));
-  const double slope = (at(e, 0).depth - at(-e, 0).depth) / (2 * e), shear = (at(e, 0).u - at(-e, 0).u) / (2 * e);
+  const double slope = (at(e, 0).depth - at(-e, 0).depth) / (2 * e),
+               shear = (at(e, 0).u - at(-e, 0).u) / (2 * e);
   CHECK(u_t + at(0, 0).u * shear + 9.81 * slope == Approx(0).margin(1e-6));
 }

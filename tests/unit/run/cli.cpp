@@ -108,11 +108,13 @@ TEST_CASE("profile prints a table or JSON and leaves no files") {
   const test::Scratch scratch;
   const Result lines = freshet_with({"profile", scene_in(scratch), "--steps", "3"});
   CHECK(lines.code == 0);
-  CHECK_THAT(lines.out, Contains("steps 21 to 23") && Contains("run::monitor") && Contains("particle-steps/s"));
+  CHECK_THAT(lines.out,
+             Contains("steps 21 to 23") && Contains("run::monitor") && Contains("particle-steps/s"));
   const Result text = freshet_with({"profile", scene_in(scratch), "--steps=3", "--json"});
   CHECK(text.code == 0);
   CHECK_THAT(text.out, Contains("\"steps\": 3,") && Contains("\"label\": \"run::monitor\""));
-  for (const auto& entry : fs::directory_iterator(scratch.path())) CHECK(entry.path().filename() == "scene.toml");
+  for (const auto& entry : fs::directory_iterator(scratch.path()))
+    CHECK(entry.path().filename() == "scene.toml");
   CHECK(freshet_with({"profile", scene_in(scratch), "--steps", "none"}).code == 2);
   CHECK(freshet_with({"profile"}).code == 2);
 }
@@ -120,11 +122,14 @@ TEST_CASE("profile prints a table or JSON and leaves no files") {
 TEST_CASE("difference finds the one particle that moved") {
   const test::Scratch scratch;
   const std::string scene = scene_in(scratch);
-  const auto run = [&](const Parts& parts, const std::string& name) { return freshet_with(parts, {"run", scene, "--out", scratch / name}).code; };
+  const auto run = [&](const Parts& parts, const std::string& name) {
+    return freshet_with(parts, {"run", scene, "--out", scratch / name}).code;
+  };
   REQUIRE(run(fake_parts(), "a") == 0);
   REQUIRE(run(fake_parts(), "b") == 0);
   long last = 0;
-  REQUIRE(run(fake_parts([&](test::FakeMethod& method) { method.on_step = [&](long step) { last = step; }; }), "b2") == 0);
+  REQUIRE(run(fake_parts([&](test::FakeMethod& method) { method.on_step = [&](long step) { last = step; }; }),
+              "b2") == 0);
   const auto moved = [&](test::FakeMethod& method) {
     method.on_step = [&method, last](long step) {
       const Field<int> id = method.fields().integer("id");
@@ -173,7 +178,9 @@ TEST_CASE("a directory that holds results is refused unless --overwrite is given
   CHECK(read_text(results + "/notes.txt") == "mine");  // only results are replaced
 }
 
-TEST_CASE("the files of a run with everything switched on are those that are refused, replaced and named by --help") {
+TEST_CASE(
+    "the files of a run with everything switched on are those that are refused, replaced and named by "
+    "--help") {
   const test::Scratch scratch;
   const std::string scene = scene_in(scratch), results = scratch / "results";
   const auto observed = [](const Parts& parts) {
@@ -292,7 +299,8 @@ TEST_CASE("points prints the particles of an output") {
   CHECK(list.out == "step,t [s]\n0,0\n1,0.25\n2,0.5\n3,0.75\n4,1\n");
   const Result first = freshet_with({"points", scratch / "r", "--step", "0"});
   CHECK(first.code == 0);
-  CHECK(first.out.rfind("x [m],y [m],z [m],depth [m],v_0 [m/s],v_1 [m/s],id [1],size [m]\n0.025,0.025,1.0025", 0) == 0);
+  CHECK(first.out.rfind("x [m],y [m],z [m],depth [m],v_0 [m/s],v_1 [m/s],id [1],size [m]\n0.025,0.025,1.0025",
+                        0) == 0);
   CHECK(std::count(first.out.begin(), first.out.end(), '\n') == 401);
   CHECK(freshet_with({"points", scratch / "r", "--step", "0", "--csv", scratch / "p.csv"}).code == 0);
   CHECK(read_text(scratch / "p.csv") == first.out);

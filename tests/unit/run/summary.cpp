@@ -35,9 +35,11 @@ TEST_CASE("the summary holds what is promised of every run, in its order, empty 
   summary.report.warnings = {"deep water"};
   const std::string text = json(summary);
   std::size_t at = 0;
-  for (const char* key : {"case", "method", "version", "backend", "registers", "threads", "particles", "initial", "final", "steps",
-                          "list_rebuilds", "simulated_s", "wall_s", "particle_steps_per_s", "mass", "energy", "momentum", "warnings",
-                          "gauges", "runup", "waterline", "later"}) {
+  for (const char* key :
+       {"case",    "method", "version",  "backend",       "registers",   "threads", "particles",
+        "initial", "final",  "steps",    "list_rebuilds", "simulated_s", "wall_s",  "particle_steps_per_s",
+        "mass",    "energy", "momentum", "warnings",      "gauges",      "runup",   "waterline",
+        "later"}) {
     CAPTURE(key);
     const auto found = text.find('"' + std::string(key) + "\": ", at);
     REQUIRE(found != std::string::npos);
@@ -81,8 +83,9 @@ TEST_CASE("observers write their promised keys, errors only where the scene name
     return json(driver.summary());
   };
   const std::string text = text_of(scene);
-  for (const char* key : {"initial_m3", "inflow_m3", "outflow_m3", "final_m3", "relative_error", "flux_error", "middle", "rmse",
-                          "max_abs_error", "peak", "peak_time", "measured_peak", "arrival", "measured_arrival", "shore"}) {
+  for (const char* key :
+       {"initial_m3", "inflow_m3", "outflow_m3", "final_m3", "relative_error", "flux_error", "middle", "rmse",
+        "max_abs_error", "peak", "peak_time", "measured_peak", "arrival", "measured_arrival", "shore"}) {
     CAPTURE(key);
     CHECK(text.find('"' + std::string(key) + "\": ") != std::string::npos);
   }

@@ -17,15 +17,17 @@ struct Bound {
   double t, depth, velocity;  // s, thesis (2.58), thesis (2.59)
 };
 
-// Rms difference [m] between a particle's depth error and the mean of its ring of width `ring` [m]: what depends on the
-// direction alone. Over the particles within `rim` [m].
+// Rms difference [m] between a particle's depth error and the mean of its ring of width `ring` [m]: what
+// depends on the direction alone. Over the particles within `rim` [m].
 double asymmetry(const Fluid& fluid, const RadialProfile& reference, double ring, double rim) {
   struct Sum {
     double error = 0, count = 0;
   };
   std::map<int, Sum> rings;
   const auto radius = [&](std::size_t k) { return std::hypot(fluid.x[k], fluid.y[k]); };
-  const auto error = [&](std::size_t k) { return fluid.depth[k] - reference.at(fluid.x[k], fluid.y[k]).depth; };
+  const auto error = [&](std::size_t k) {
+    return fluid.depth[k] - reference.at(fluid.x[k], fluid.y[k]).depth;
+  };
   for (std::size_t k = 0; k < fluid.size(); ++k) {
     Sum& sum = rings[static_cast<int>(radius(k) / ring)];
     sum.error += error(k);
@@ -50,8 +52,8 @@ double outermost(const Fluid& fluid) {
 }  // namespace
 
 TEST_CASE("the circular dam break on wet ground is as accurate as the best known of the scheme", "[slow]") {
-  // A prototype on a disc of 640 m reached 0.0123/0.0076, 0.0144/0.0097, 0.0162/0.0118; the thesis prints 0.014/0.007,
-  // 0.015/0.009, 0.016/0.011. The bounds are the prototype's, rounded up by 2 to 6 %.
+  // A prototype on a disc of 640 m reached 0.0123/0.0076, 0.0144/0.0097, 0.0162/0.0118; the thesis prints
+  // 0.014/0.007, 0.015/0.009, 0.016/0.011. The bounds are the prototype's, rounded up by 2 to 6 %.
   constexpr Bound bounds[] = {{10, 0.013, 0.008}, {30, 0.015, 0.010}, {50, 0.0165, 0.012}};
   const test::CaseRun run = test::finish_case("dam_break_radial");
   const test::Results& summary = run.summary;
@@ -82,8 +84,9 @@ TEST_CASE("the circular dam break on dry ground") {
   const double direction = asymmetry(fluid, reference, 25, 2000);
   CAPTURE(direction);
   CHECK(direction <= 0.05);
-  // Without splitting the outermost ring has no neighbours ahead and its particles drift apart: it lags, by 10.3 spacings in a
-  // prototype, behind the place where the reference is 1 cm deep. It must not run ahead.
+  // Without splitting the outermost ring has no neighbours ahead and its particles drift apart: it lags,
+  // by 10.3 spacings in a prototype, behind the place where the reference is 1 cm deep. It must not run
+  // ahead.
   const double lag = (reference.front(0.01) - outermost(fluid)) / 25;
   CAPTURE(lag);
   CHECK(lag >= 0);

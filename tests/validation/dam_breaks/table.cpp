@@ -26,12 +26,15 @@ constexpr double spacings[] = {20, 10, 5, 2.5};  // m
 
 TEST_CASE("eta 1.2 reproduces the four printed columns") {
   const Row row = GENERATE(
-      Row{"AV", {"sph.eta=1.2", "sph.stabilise=artificial-viscosity", "sph.viscosity=[1.7, 0]", "time.cfl=0.2"},
+      Row{"AV",
+          {"sph.eta=1.2", "sph.stabilise=artificial-viscosity", "sph.viscosity=[1.7, 0]", "time.cfl=0.2"},
           {1.52e-2, 9.3e-3, 5.8e-3, 3.7e-3}},
       Row{"LF", {"sph.eta=1.2", "sph.muscl=false"}, {1.57e-2, 9.8e-3, 6.4e-3, 4.3e-3}},
       Row{"LF MUSCL", {"sph.eta=1.2"}, {1.00e-2, 5.9e-3, 3.9e-3, 2.6e-3}},
       // At CFL 0.4 the second column is 15.7 % above the printed one.
-      Row{"TS MUSCL", {"sph.eta=1.2", "sph.stabilise=two-shock", "time.cfl=0.2"}, {1.02e-2, 6.0e-3, 4.1e-3, 2.7e-3}});
+      Row{"TS MUSCL",
+          {"sph.eta=1.2", "sph.stabilise=two-shock", "time.cfl=0.2"},
+          {1.02e-2, 6.0e-3, 4.1e-3, 2.7e-3}});
   for (int k = 0; k < 4; ++k) {
     CAPTURE(row.what, spacings[k]);
     CHECK(depth_l1(row, spacings[k]) == Approx(row.bound[k]).epsilon(0.15));
@@ -41,11 +44,14 @@ TEST_CASE("eta 1.2 reproduces the four printed columns") {
 TEST_CASE("eta 1.0 is at least as accurate as printed, its best setting three times as accurate") {
   // The best setting's bounds: 5 to 20 % above an independent prototype (5.24e-3, 2.64e-3, 1.34e-3, 7.4e-4).
   const Row row = GENERATE(
-      Row{"AV", {"sph.eta=1.0", "sph.stabilise=artificial-viscosity", "sph.viscosity=[1, 0]", "time.cfl=0.2"},
+      Row{"AV",
+          {"sph.eta=1.0", "sph.stabilise=artificial-viscosity", "sph.viscosity=[1, 0]", "time.cfl=0.2"},
           {1.52e-2, 9.3e-3, 5.8e-3, 3.7e-3}},
       Row{"LF MUSCL", {"sph.eta=1.0"}, {1.00e-2, 5.9e-3, 3.9e-3, 2.6e-3}},
       Row{"TS MUSCL", {"sph.eta=1.0", "sph.stabilise=two-shock"}, {1.02e-2, 6.0e-3, 4.1e-3, 2.7e-3}},
-      Row{"half LF MUSCL", {"sph.eta=1.0", "sph.strength=0.5", "time.cfl=0.4"}, {6e-3, 3.2e-3, 1.6e-3, 8.5e-4}});
+      Row{"half LF MUSCL",
+          {"sph.eta=1.0", "sph.strength=0.5", "time.cfl=0.4"},
+          {6e-3, 3.2e-3, 1.6e-3, 8.5e-4}});
   for (int k = 0; k < 4; ++k) {
     CAPTURE(row.what, spacings[k]);
     CHECK(depth_l1(row, spacings[k]) <= row.bound[k]);

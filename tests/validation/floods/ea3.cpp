@@ -1,11 +1,11 @@
-// EA test 3, momentum over an obstruction: water must pass the crest, about as much as in a finite-volume solution of the same
-// equations along the (uniform) flow.
+// EA test 3, momentum over an obstruction: water must pass the crest, about as much as in a finite-volume
+// solution of the same equations along the (uniform) flow.
 #include <catch2/catch.hpp>
 
 #include "src/io/fluid.hpp"
-#include "tests/support/solve/channel.hpp"
 #include "tests/support/run/data.hpp"
 #include "tests/support/run/run_case.hpp"
+#include "tests/support/solve/channel.hpp"
 
 using namespace freshet;
 
@@ -15,8 +15,15 @@ constexpr double crest = 200, width = 100, manning = 0.01;  // m, m, s/m^(1/3)
 
 test::ChannelFlow finite_volumes(const Scene& scene) {
   const Series discharge = scene.boundaries.at(0).imposed.at(0).series;
-  test::ChannelFlow flow({0, 300, 600, scene.gravity, manning, [&](double x) { return scene.bed.elevation(x, 50); },
-                          [](double) { return 0.0; }, {}, [discharge](double t) { return discharge.at(t) / width; }});
+  test::ChannelFlow flow({0,
+                          300,
+                          600,
+                          scene.gravity,
+                          manning,
+                          [&](double x) { return scene.bed.elevation(x, 50); },
+                          [](double) { return 0.0; },
+                          {},
+                          [discharge](double t) { return discharge.at(t) / width; }});
   while (flow.time() < scene.end_time) flow.step(scene.end_time);
   return flow;
 }

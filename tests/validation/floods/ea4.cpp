@@ -6,11 +6,13 @@
 
 using namespace freshet;
 
-TEST_CASE("EA test 4: the front of a breach crosses a plain in time and leaves the right depths", "[ea4][long]") {
+TEST_CASE("EA test 4: the front of a breach crosses a plain in time and leaves the right depths",
+          "[ea4][long]") {
   if (!test::data_file("ea_tests/test4/ea4-5m-dg2_subset.csv")) return;
   const Scene scene = test::read_case("ea4");
-  // At the case's 4 m the front is 76 particles when it nears P2, and by chance two of eight runs, told apart by rounding alone,
-  // send a few of them ahead: there by 721 s in place of 910 to 943. At 2.5 m there are 200.
+  // At the case's 4 m the front is 76 particles when it nears P2, and by chance two of eight runs, told apart
+  // by rounding alone, send a few of them ahead: there by 721 s in place of 910 to 943. At 2.5 m there are
+  // 200.
   const test::CaseRun run = test::finish_case("ea4", {"water.spacing=2.5"});
   REQUIRE(run.gauges.size() == 6);
   for (std::size_t g = 0; g < run.gauges.size(); ++g) {
@@ -20,6 +22,7 @@ TEST_CASE("EA test 4: the front of a breach crosses a plain in time and leaves t
     CHECK(run.gauges[g].at(7200) == Approx(scene.gauges[g].measured->at(7200)).margin(0.02));
     CHECK(result.arrival == Approx(result.measured_arrival).margin(180));
   }
-  CHECK(run.summary.mass.inflow == Approx(33000 + 3600 * 20).epsilon(0.005));  // m3, the hydrograph's to 7200 s
+  CHECK(run.summary.mass.inflow ==
+        Approx(33000 + 3600 * 20).epsilon(0.005));  // m3, the hydrograph's to 7200 s
   CHECK(run.summary.mass.relative_error <= 1e-10);
 }

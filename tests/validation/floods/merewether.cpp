@@ -16,7 +16,8 @@ struct Mark {
   const char* name;
   double level;  // m, of the final report
 };
-// ID2 was observed at 23.36 m, 0.22 m below the ground of the terrain model: for it stands TUFLOW's level on 1 m cells.
+// ID2 was observed at 23.36 m, 0.22 m below the ground of the terrain model: for it stands TUFLOW's level on
+// 1 m cells.
 constexpr Mark marks[] = {{"ID0", 19.98}, {"ID1", 18.38}, {"ID2", 23.57}, {"ID3", 23.14}, {"ID4", 23.01}};
 
 // Mean from 800 s on: the level goes up and down by 3 cm.
@@ -51,8 +52,10 @@ TEST_CASE("the flood of Merewether settles at its flood marks", "[merewether][lo
     CHECK(level == Approx(marks[k].level).margin(0.3));
     sum += std::abs(level - marks[k].level);
   }
-  // As good as the published models: mean deviation from the marks of TUFLOW with 0.5, 1 and 2 m cells 0.20, 0.12, 0.16 m.
+  // As good as the published models: mean deviation from the marks of TUFLOW with 0.5, 1 and 2 m cells 0.20,
+  // 0.12, 0.16 m.
   CHECK(sum / 5 <= 0.20);
-  CHECK(run.summary.mass.inflow == Approx(19.7 * 900).epsilon(0.005));  // m3; nothing comes back through the free falls
+  CHECK(run.summary.mass.inflow ==
+        Approx(19.7 * 900).epsilon(0.005));  // m3; nothing comes back through the free falls
   CHECK(run.summary.mass.relative_error <= 1e-10);
 }

@@ -23,7 +23,8 @@ Errors errors_at(double spacing) {
   for (const auto& q : run.points()) {
     if (std::abs(q.x) < 1e-3 * spacing && q.y > 0.25 && q.y < 0.95)
       e.face += std::pow(q.u / dt - face_acceleration(column, q.y), 2), ++faces;
-    if (std::abs(q.y - 1) < 1e-3 * spacing) e.top += std::pow(q.v / dt - top_acceleration(column, q.x), 2), ++tops;
+    if (std::abs(q.y - 1) < 1e-3 * spacing)
+      e.top += std::pow(q.v / dt - top_acceleration(column, q.x), 2), ++tops;
   }
   return {std::sqrt(e.face / faces) / column.gravity, std::sqrt(e.top / tops) / column.gravity};
 }

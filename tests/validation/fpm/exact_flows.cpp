@@ -8,14 +8,14 @@ using namespace freshet;
 
 namespace {
 
-
 // Root mean square of the velocity's error per component.
 double vortex_error(const test::FlowRun& run) {
   const double decay = std::exp(-8 * pi * pi * 1e-3 * run.clock.t);
   double sum = 0;
   const auto points = run.points();
   for (const auto& q : points) {
-    const double u = -std::cos(2 * pi * q.x) * std::sin(2 * pi * q.y) * decay, v = std::sin(2 * pi * q.x) * std::cos(2 * pi * q.y) * decay;
+    const double u = -std::cos(2 * pi * q.x) * std::sin(2 * pi * q.y) * decay,
+                 v = std::sin(2 * pi * q.x) * std::cos(2 * pi * q.y) * decay;
     sum += std::pow(q.u - u, 2) + std::pow(q.v - v, 2);
   }
   return std::sqrt(sum / (2.0 * static_cast<double>(points.size())));
@@ -26,14 +26,16 @@ struct Axes {
 };
 Axes axes(const test::FlowRun& run) {
   Axes found;
-  for (const auto& q : run.points()) found = {std::max(found.a, std::abs(q.x)), std::max(found.b, std::abs(q.y))};
+  for (const auto& q : run.points())
+    found = {std::max(found.a, std::abs(q.x)), std::max(found.b, std::abs(q.y))};
   return found;
 }
 
 }  // namespace
 
 TEST_CASE("Taylor-Green vortices of 20 and 40 points a side decay as they should") {
-  test::FlowRun coarse("fpm_taylor_green", {"water.spacing=0.05"}), fine("fpm_taylor_green", {"water.spacing=0.025"});
+  test::FlowRun coarse("fpm_taylor_green", {"water.spacing=0.05"}),
+      fine("fpm_taylor_green", {"water.spacing=0.025"});
   coarse.run_to(2);
   fine.run_to(2);
   CAPTURE(vortex_error(coarse), vortex_error(fine), coarse.most_iterations, fine.most_iterations);
@@ -61,7 +63,8 @@ TEST_CASE("A strained drop has the exact ellipse's axes and pressure") {
   const double a = 0.27181408, b = 3.67898532, top = 10.799;  // the closed form; Pa in the centre
   double square = 0;
   const auto points = run.points();
-  for (const auto& q : points) square += std::pow(q.p - top * (1 - q.x * q.x / (a * a) - q.y * q.y / (b * b)), 2);
+  for (const auto& q : points)
+    square += std::pow(q.p - top * (1 - q.x * q.x / (a * a) - q.y * q.y / (b * b)), 2);
   const Axes found = axes(run);
   CAPTURE(found.a, found.b, points.size(), run.clock.step);
   CHECK(std::abs(found.a / a - 1) <= 5e-4);

@@ -32,7 +32,8 @@ std::vector<double> rises(const std::vector<Sample>& s, double level) {
   std::vector<double> times;
   for (std::size_t k = 1; k < s.size(); ++k)
     if (s[k - 1].value < level && s[k].value >= level)
-      times.push_back(s[k - 1].t + (s[k].t - s[k - 1].t) * (level - s[k - 1].value) / (s[k].value - s[k - 1].value));
+      times.push_back(s[k - 1].t +
+                      (s[k].t - s[k - 1].t) * (level - s[k - 1].value) / (s[k].value - s[k - 1].value));
   return times;
 }
 
@@ -58,7 +59,8 @@ double highest(const std::vector<Sample>& s, double from, double to) {
 
 }  // namespace
 
-TEST_CASE("fpm: a standing wave has the period of linear theory and keeps its height for five periods", "[slow]") {
+TEST_CASE("fpm: a standing wave has the period of linear theory and keeps its height for five periods",
+          "[slow]") {
   test::FlowRun run("fpm_sloshing");
   const auto level = record(run, 6, 1);  // at the right wall
   const double period = 1.1818;
@@ -74,7 +76,8 @@ TEST_CASE("fpm: a standing wave has the period of linear theory and keeps its he
 }
 
 TEST_CASE("fpm: the front of a collapsing column runs as measured from Z = 1.5 on") {
-  const auto tables = test::data_file("fpm_dambreak/martin_moyce_1952_tables.csv"), koshizuka = test::data_file("fpm_dambreak/pysph_ko_data.csv");
+  const auto tables = test::data_file("fpm_dambreak/martin_moyce_1952_tables.csv"),
+             koshizuka = test::data_file("fpm_dambreak/pysph_ko_data.csv");
   if (!tables || !koshizuka) return;
   test::FlowRun run("fpm_martin_moyce");
   const double a = 0.05715, scale = std::sqrt(2 * 9.81 / a);
@@ -91,11 +94,17 @@ TEST_CASE("fpm: the front of a collapsing column runs as measured from Z = 1.5 o
     }
     return d;
   };
-  const auto martin = differences(series_rows(*tables, "front_n2_2_a2.25in")), oka = differences(test::number_rows(*koshizuka));
-  const auto mean = [](const std::vector<double>& d) { return std::accumulate(d.begin(), d.end(), 0.0) / static_cast<double>(d.size()); };
-  const auto spread = [](const std::vector<double>& d) { return *std::max_element(d.begin(), d.end()) - *std::min_element(d.begin(), d.end()); };
+  const auto martin = differences(series_rows(*tables, "front_n2_2_a2.25in")),
+             oka = differences(test::number_rows(*koshizuka));
+  const auto mean = [](const std::vector<double>& d) {
+    return std::accumulate(d.begin(), d.end(), 0.0) / static_cast<double>(d.size());
+  };
+  const auto spread = [](const std::vector<double>& d) {
+    return *std::max_element(d.begin(), d.end()) - *std::min_element(d.begin(), d.end());
+  };
   CAPTURE(martin, oka, mean(martin), mean(oka), run.solver.fields().size(), run.clock.step);
-  // One shift in T, that of the gate, which is not in the computation; both sets come later than an instant release.
+  // One shift in T, that of the gate, which is not in the computation; both sets come later than an instant
+  // release.
   REQUIRE(martin.size() >= 8);
   CHECK(mean(martin) > 0);
   CHECK(mean(martin) < 0.4);

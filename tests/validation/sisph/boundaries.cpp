@@ -29,7 +29,8 @@ double incoming(double t) { return crest * std::exp(-std::pow((t - middle) / wid
 
 Series sampled_wave() {
   Series level;
-  for (int k = 0; k <= 12000; ++k) level.t.push_back(0.001 * k), level.value.push_back(1 + incoming(0.001 * k));
+  for (int k = 0; k <= 12000; ++k)
+    level.t.push_back(0.001 * k), level.value.push_back(1 + incoming(0.001 * k));
   return level;
 }
 
@@ -42,7 +43,7 @@ double simple_wave(double x, double t) {
 }
 
 struct Setting {
-  int n;                   // spacings in 20 m
+  int n;  // spacings in 20 m
   double courant = 1, smoothing = 1.5;
 };
 
@@ -69,15 +70,19 @@ std::vector<double> levels(const Flow& flow) {
 
 struct Passage {
   double l2;               // over the crest, in the middle of the way
-  double reflected, left;  // over the crest, at 12 s: the difference to a channel three times as long, in which no end is near; all of it
+  double reflected, left;  // over the crest, at 12 s: the difference to a channel three times as long, in
+                           // which no end is near; all of it
   double late;             // the same at 16 s, when what the end reflected would have left, too
   double balance;          // m2
 };
 
 Passage pass_wave(const Setting& setting) {
   Flow flow = channel_with_wave(setting, 1), endless = channel_with_wave(setting, 3);
-  const double dt = setting.courant * 20.0 / setting.n / std::sqrt(gravity), mass = flow.method->totals().mass;
-  const auto run_to = [dt](Flow& f, double end) { while (f.t < end - 1e-9) f.step(std::min(dt, end - f.t)); };
+  const double dt = setting.courant * 20.0 / setting.n / std::sqrt(gravity),
+               mass = flow.method->totals().mass;
+  const auto run_to = [dt](Flow& f, double end) {
+    while (f.t < end - 1e-9) f.step(std::min(dt, end - f.t));
+  };
   run_to(flow, 5);
   const auto x = flow.real("x"), depth = flow.real("depth");
   const auto kind = std::as_const(*flow.method).fields().integer("kind");
@@ -105,8 +110,8 @@ Passage pass_wave(const Setting& setting) {
 
 constexpr double leftover[] = {2.6e-3, 1.6e-3, 9e-4};  // n = 100, 200, 400
 
-// At n = 100 the wave is six spacings long: of its short waves, which gradients over a support of 3 dx slow down, 0.8 % of the crest has
-// not come to the end yet at 12 s, as little as where there is no end.
+// At n = 100 the wave is six spacings long: of its short waves, which gradients over a support of 3 dx slow
+// down, 0.8 % of the crest has not come to the end yet at 12 s, as little as where there is no end.
 TEST_CASE("sisph: a wave enters a channel, crosses it and leaves") {
   double before = 0;
   int k = 0;
@@ -192,7 +197,9 @@ TEST_CASE("sisph: uniform flow down a slope against friction", "[slow]") {
   const auto kind = std::as_const(*flow.method).fields().integer("kind");
   double depth_error = 0, speed_error = 0;
   for (int i = 0; i < flow.size(); ++i)
-    if (kind(i) == 0) depth_error = std::max(depth_error, std::abs(depth(i) - 1)), speed_error = std::max(speed_error, std::abs(u(i) - speed));
+    if (kind(i) == 0)
+      depth_error = std::max(depth_error, std::abs(depth(i) - 1)),
+      speed_error = std::max(speed_error, std::abs(u(i) - speed));
   CAPTURE(courant, depth_error, speed_error);
   CHECK(depth_error <= 1.2e-8);
   CHECK(speed_error <= 1.2e-8);
@@ -212,7 +219,8 @@ double flux_error(double spacing) {
   Flow flow(scene);
   flow.run(12);
   const Totals passed = flow.method->totals();
-  // The wave lifts the level by 0.1 m for 2 s at least and comes in with 3.1 m/s over 4 m: 0.1 * 2 * 3.1 * 4 = 2.5 m3.
+  // The wave lifts the level by 0.1 m for 2 s at least and comes in with 3.1 m/s over 4 m: 0.1 * 2 * 3.1 * 4
+  // = 2.5 m3.
   CHECK(passed.flux_gross > 2.5);
   return std::abs(passed.inflow - passed.outflow - passed.flux) / passed.flux_gross;
 }
@@ -222,6 +230,7 @@ double flux_error(double spacing) {
 TEST_CASE("sisph: what crosses open lines is what their laws carry through them, to second order") {
   const double coarse = flux_error(0.5), fine = flux_error(0.25);
   CAPTURE(coarse, fine);
-  CHECK(coarse < 2e-3);  // the rise of 0.1 m in 1 s is six cells of 0.5 m long: (0.1 / 6)^2 to a factor of some
+  CHECK(coarse <
+        2e-3);  // the rise of 0.1 m in 1 s is six cells of 0.5 m long: (0.1 / 6)^2 to a factor of some
   CHECK(fine < coarse / 3);
 }

@@ -1,5 +1,5 @@
-// SISPH with particles that move (formulation L) against exact and finely resolved solutions. Bounds: the numbers that the corrected
-// scheme was found to have, and a tenth more.
+// SISPH with particles that move (formulation L) against exact and finely resolved solutions. Bounds: the
+// numbers that the corrected scheme was found to have, and a tenth more.
 #include <catch2/catch.hpp>
 
 #include <Eigen/Eigenvalues>
@@ -48,7 +48,8 @@ TEST_CASE("sisph moving: the thesis' hump about to break (7.1.1)", "[sisph]") {
   const double bound[] = {1.97e-2, 1.10e-2, 5.94e-3};
   int k = 0;
   for (const int n : {200, 400, 800}) {
-    const Result r = run("sisph_hump", at(n, 0.01 * 200 / n, {"sisph.theta=0.55", "compare.exact.amplitude=0.5"}));
+    const Result r =
+        run("sisph_hump", at(n, 0.01 * 200 / n, {"sisph.theta=0.55", "compare.exact.amplitude=0.5"}));
     CAPTURE(n, r.depth_l2);
     CHECK(r.depth_l2 <= bound[k++]);
     CHECK(r.summary.mass.initial == Approx(2 + 0.05 * std::sqrt(2 * 3.14159265358979323846)).epsilon(1e-9));
@@ -62,14 +63,16 @@ TEST_CASE("sisph moving: two rarefactions (7.1.2)", "[sisph]") {
     Keys keys;
     double bound[3];
   };
-  for (const Run& c : {Run{1, {}, {3.2e-2, 1.9e-2, 9.6e-3}}, Run{1, {"sisph.jump=0.1"}, {3.2e-2, 1.9e-2, 9.6e-3}},
-                       Run{0.25, {"sisph.theta=0.6", "sisph.picard=3"}, {1.76e-2, 1.04e-2, 5.95e-3}}}) {
+  for (const Run& c :
+       {Run{1, {}, {3.2e-2, 1.9e-2, 9.6e-3}}, Run{1, {"sisph.jump=0.1"}, {3.2e-2, 1.9e-2, 9.6e-3}},
+        Run{0.25, {"sisph.theta=0.6", "sisph.picard=3"}, {1.76e-2, 1.04e-2, 5.95e-3}}}) {
     int k = 0;
     for (const int n : {200, 400, 800}) {
       const Result r = run("sisph_rarefactions", at(n, c.step * 2 / n, c.keys));
       CAPTURE(c.step, n, r.depth_l2);
       CHECK(r.depth_l2 <= c.bound[k++]);
-      CHECK(r.summary.mass.initial == Approx(2).epsilon(1e-12));  // the thesis' 2.000000: the same particles all along
+      CHECK(r.summary.mass.initial ==
+            Approx(2).epsilon(1e-12));  // the thesis' 2.000000: the same particles all along
       CHECK(r.summary.mass.relative_error < 1e-14);
     }
   }
@@ -80,17 +83,20 @@ TEST_CASE("sisph moving: a hump in two dimensions, at rest and in a mean flow", 
     std::string disorder, velocity;
     double bound[2], order;
   };
-  // In a mean flow the corrected scheme was found to have 4.0e-3 and 1.6e-3 with steps twice as long; here motion makes no difference.
+  // In a mean flow the corrected scheme was found to have 4.0e-3 and 1.6e-3 with steps twice as long; here
+  // motion makes no difference.
   for (const Run& c : {Run{"0", "[0,0]", {3.6e-3, 1.25e-3}, 1.3}, Run{"0.2", "[0,0]", {3.6e-3, 1.27e-3}, 1.3},
                        Run{"0.2", "[1,0.5]", {3.6e-3, 1.27e-3}, 1.3}}) {
     double before = 0;
     for (const int n : {50, 100}) {
-      const Result r = run("sisph_bump", at(n, 0.15 * 50 / (12.0 * n), {"sisph.theta=0.55", "water.disorder=" + c.disorder,
-                                                                        "compare.exact.velocity=" + c.velocity}));
+      const Result r = run("sisph_bump", at(n, 0.15 * 50 / (12.0 * n),
+                                            {"sisph.theta=0.55", "water.disorder=" + c.disorder,
+                                             "compare.exact.velocity=" + c.velocity}));
       CAPTURE(c.disorder, c.velocity, n, r.depth_l2);
       CHECK(r.depth_l2 <= c.bound[n == 100]);
       if (n == 100) CHECK(std::log2(before / r.depth_l2) >= c.order);
-      CHECK(r.summary.mass.relative_error < 1e-14);  // the masses stay to the bit; the order of their sum changes
+      CHECK(r.summary.mass.relative_error <
+            1e-14);  // the masses stay to the bit; the order of their sum changes
       before = r.depth_l2;
     }
   }
@@ -98,16 +104,20 @@ TEST_CASE("sisph moving: a hump in two dimensions, at rest and in a mean flow", 
 
 namespace {
 
-// Where each particle of the 1-D hump should be: the water on its left is what it was. L2 of the difference, m.
+// Where each particle of the 1-D hump should be: the water on its left is what it was. L2 of the difference,
+// m.
 double place_error(const std::string& paths, double dt) {
-  const Keys keys = at(1600, dt, {"sisph.formulation=moving", "sisph.paths=" + paths, "sisph.picard=3", "sisph.cg.tolerance=1e-10"});
+  const Keys keys =
+      at(1600, dt,
+         {"sisph.formulation=moving", "sisph.paths=" + paths, "sisph.picard=3", "sisph.cg.tolerance=1e-10"});
   const Scene scene = test::read_case("sisph_hump", keys);
   const test::CaseRun r = test::finish_case("sisph_hump", keys);
   const auto depth = [&](double x, double t) { return scene.compare.exact->at(x, 0, t).depth; };
   constexpr int cells = 20000;
   constexpr double width = 2.0 / cells;
   std::vector<double> left{0};  // m2, water between -1 and a place, at the end
-  for (int k = 0; k < cells; ++k) left.push_back(left.back() + width * depth(-1 + (k + 0.5) * width, scene.end_time));
+  for (int k = 0; k < cells; ++k)
+    left.push_back(left.back() + width * depth(-1 + (k + 0.5) * width, scene.end_time));
   std::vector<double> start{0};
   for (int k = 0; k < cells; ++k) start.push_back(start.back() + width * depth(-1 + (k + 0.5) * width, 0));
   const auto between = [&](const std::vector<double>& sum, double x) {
@@ -115,7 +125,8 @@ double place_error(const std::string& paths, double dt) {
     const auto k = static_cast<std::size_t>(s);
     return sum[k] + f * (sum[k + 1] - sum[k]);
   };
-  const int beside = (r.method->fields().size() - 1600) / 2;  // particles on each side of the domain: ids follow x
+  const int beside =
+      (r.method->fields().size() - 1600) / 2;  // particles on each side of the domain: ids follow x
   double square = 0;
   for (std::size_t i = 0; i < r.fluid.size(); ++i) {
     const double first = -1 + (r.fluid.id[i] - beside + 0.5) * 2.0 / 1600;
@@ -127,8 +138,13 @@ double place_error(const std::string& paths, double dt) {
 }  // namespace
 
 TEST_CASE("sisph moving: places of particles in time, rule by rule", "[sisph][slow]") {
-  // From steps of 0.01 to 0.005 s (celerity Courant numbers of 25 and 13): the error of the step is nearly all there is.
-  for (const auto& [paths, least, most] : {std::tuple{"euler", 0.9, 1.3}, {"theta", 1.85, 2.2}, {"rk2", 1.85, 2.2}, {"rk3", 1.85, 2.3}, {"leap-frog", 1.85, 2.2}}) {
+  // From steps of 0.01 to 0.005 s (celerity Courant numbers of 25 and 13): the error of the step is nearly
+  // all there is.
+  for (const auto& [paths, least, most] : {std::tuple{"euler", 0.9, 1.3},
+                                           {"theta", 1.85, 2.2},
+                                           {"rk2", 1.85, 2.2},
+                                           {"rk3", 1.85, 2.3},
+                                           {"leap-frog", 1.85, 2.2}}) {
     const double e[] = {place_error(paths, 0.01), place_error(paths, 0.005)};
     CAPTURE(paths, e[0], e[1]);
     CHECK(std::log2(e[0] / e[1]) >= least);
@@ -137,8 +153,9 @@ TEST_CASE("sisph moving: places of particles in time, rule by rule", "[sisph][sl
 }
 
 TEST_CASE("sisph moving: water that sloshes over a curved bed", "[sisph]") {
-  // Thacker's lake, 1-D: the surface stays straight and all water has the same velocity, so each particle keeps its depth. The sides,
-  // which no wall holds, go with the water: it moves seven spacings of the finest particles.
+  // Thacker's lake, 1-D: the surface stays straight and all water has the same velocity, so each particle
+  // keeps its depth. The sides, which no wall holds, go with the water: it moves seven spacings of the finest
+  // particles.
   const double radius = std::sqrt(10.0) * 1.0, xi = 0.5;
   const auto exact = thacker_sloshing({1.0, radius}, xi, 9.81);
   for (const double jump : {0.25, 0.1}) {
@@ -147,7 +164,8 @@ TEST_CASE("sisph moving: water that sloshes over a curved bed", "[sisph]") {
       Scene scene = moving_scene(1, {-2.5, 0}, {2.5, 0}, 5.0 / n);
       scene.bed.elevation = [radius](double x, double) { return x * x / (radius * radius) - 1; };
       scene.water.depth = [&](double x, double) { return exact->at(x, 0, 0).depth; };
-      scene.water.velocity = {[&](double x, double) { return exact->at(x, 0, 0).u; }, [](double, double) { return 0.0; }};
+      scene.water.velocity = {[&](double x, double) { return exact->at(x, 0, 0).u; },
+                              [](double, double) { return 0.0; }};
       scene.time_step = 0.45 / (n / 5);
       scene.sisph.jump = jump;
       Flow flow(scene);
@@ -168,13 +186,14 @@ TEST_CASE("sisph moving: water that sloshes over a curved bed", "[sisph]") {
 
 namespace {
 
-// The lowest standing wave over the bed -1 + 0.3 sin(3 x) between walls at 0 and 1 m, by finite differences of 2000 cells:
-// (g d eta')' = -omega^2 eta. Returns omega and eta in the cells, 1 at most.
+// The lowest standing wave over the bed -1 + 0.3 sin(3 x) between walls at 0 and 1 m, by finite differences
+// of 2000 cells: (g d eta')' = -omega^2 eta. Returns omega and eta in the cells, 1 at most.
 struct Mode {
   double omega;
   Eigen::VectorXd eta;
   double at(double x) const {
-    const double s = std::min(std::max(x * static_cast<double>(eta.size()) - 0.5, 0.0), static_cast<double>(eta.size()) - 1.001);
+    const double s = std::min(std::max(x * static_cast<double>(eta.size()) - 0.5, 0.0),
+                              static_cast<double>(eta.size()) - 1.001);
     const auto k = static_cast<Eigen::Index>(s);
     return eta[k] + (s - static_cast<double>(k)) * (eta[k + 1] - eta[k]);
   }
@@ -211,7 +230,8 @@ TEST_CASE("sisph moving: a standing wave over an uneven bed between walls", "[si
     flow.run(2 * period);
     double square = 0;
     for (int i = 0; i < flow.size(); ++i)
-      square += std::pow(flow.real("depth")(i) + flow.real("bed")(i) - amplitude * mode.at(flow.real("x")(i)), 2);
+      square +=
+          std::pow(flow.real("depth")(i) + flow.real("bed")(i) - amplitude * mode.at(flow.real("x")(i)), 2);
     const double l2 = std::sqrt(square / flow.size()) / amplitude;
     CAPTURE(n, l2);
     if (n > 20) CHECK(std::log2(before / l2) >= 1.8);
@@ -220,8 +240,10 @@ TEST_CASE("sisph moving: a standing wave over an uneven bed between walls", "[si
 }
 
 TEST_CASE("sisph moving: uniform flow down a slope comes to the speed that friction allows", "[sisph]") {
-  // v^2 = S0 H^(4/3) / n^2. From rest v = v0 tanh(g S0 t / v0), with both sides going along: the water is a block.
-  constexpr double slope = 0.01, n = 0.5, depth = 1;  // rough, so that the water stays over the bed that the scene knows
+  // v^2 = S0 H^(4/3) / n^2. From rest v = v0 tanh(g S0 t / v0), with both sides going along: the water is a
+  // block.
+  constexpr double slope = 0.01, n = 0.5,
+                   depth = 1;  // rough, so that the water stays over the bed that the scene knows
   const double fastest = std::sqrt(slope) / n, end = 3 * fastest / (9.81 * slope);
   double before = 0;
   for (const int steps : {20, 40}) {
@@ -236,7 +258,8 @@ TEST_CASE("sisph moving: uniform flow down a slope comes to the speed that frict
     flow.run(end);
     double error = 0;
     for (int i = 0; i < flow.size(); ++i) {
-      error = std::max(error, std::abs(flow.real("u")(i) - fastest * std::tanh(9.81 * slope * end / fastest)));
+      error =
+          std::max(error, std::abs(flow.real("u")(i) - fastest * std::tanh(9.81 * slope * end / fastest)));
       CHECK(flow.real("depth")(i) == Approx(depth).epsilon(1e-9));
     }
     CAPTURE(steps, error);

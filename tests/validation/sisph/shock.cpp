@@ -46,7 +46,8 @@ TEST_CASE("sisph: a dam break 1 : 0.2 in conservative form") {
     const double dt = 0.5 * 2.0 / n / std::sqrt(gravity), momentum0 = flow.method->mechanics().momentum[0];
     while (flow.t < time - 1e-9) flow.step(std::min(dt, time - flow.t));
     const double error = bore(flow, 0.5 * (h + right)) - exact;
-    const double gained = flow.method->mechanics().momentum[0] - momentum0, pressed = 0.5 * gravity * (left * left - right * right) * flow.t;
+    const double gained = flow.method->mechanics().momentum[0] - momentum0,
+                 pressed = 0.5 * gravity * (left * left - right * right) * flow.t;
     CAPTURE(n, exact, error, gained - pressed);
     CHECK(std::abs(error) <= 2 * 2.0 / n);
     if (n > 400) CHECK(before / std::abs(error) >= 1.5);

@@ -1,5 +1,6 @@
-// SISPH with moving shores in 2-D: Thacker's bowl, 128 x 128 cells, theta 0.5, celerity Courant number 1, one period; relative L2 of
-// the depth over all particles, dry ones too. The bounds are those of a prototype of the corrected scheme.
+// SISPH with moving shores in 2-D: Thacker's bowl, 128 x 128 cells, theta 0.5, celerity Courant number 1, one
+// period; relative L2 of the depth over all particles, dry ones too. The bounds are those of a prototype of
+// the corrected scheme.
 #include <catch2/catch.hpp>
 
 #include "tests/support/run/run_case.hpp"
@@ -16,8 +17,8 @@ test::CaseRun bowl(const std::string& name, const Keys& more = {}) {
   return test::finish_case(name, keys);
 }
 
-// What holds on the way, however large the error: the mass, depths, and passes that settle in a few solves. Films too thin for the
-// tolerance of CG once flipped between wet and dry until the cap of 60 solves.
+// What holds on the way, however large the error: the mass, depths, and passes that settle in a few solves.
+// Films too thin for the tolerance of CG once flipped between wet and dry until the cap of 60 solves.
 void check_ways(const test::CaseRun& run) {
   const StepReport report = run.method->report();
   CHECK(report.unsettled == 0);
@@ -56,7 +57,8 @@ TEST_CASE("sisph: the error in the bowl falls with the spacing", "[sisph]") {
 }
 
 TEST_CASE("sisph: a landslide's wave on a beach at a celerity Courant number of 5", "[sisph][slow]") {
-  const Keys keys{"scene.method=sisph", "water.start=cells", "sisph.theta=0.5", "sisph.courant=5", "output.every=0"};
+  const Keys keys{"scene.method=sisph", "water.start=cells", "sisph.theta=0.5", "sisph.courant=5",
+                  "output.every=0"};
   const test::Results summary = test::run_case("beach_wave", keys);
   REQUIRE(summary.errors_at.size() == 3);
   // The case's bound; measured 0.07, 0.38, 0.13 %.

@@ -1,9 +1,13 @@
-// The semi-implicit scheme as it is printed (Bankole 2016, (5.22), (5.39)-(5.44), (6.8)) does not converge, which is why the method
-// uses other formulas. Written here from the print, 1-D, with direct solves; each of three defects can be mended by itself:
-//   volumes    (5.22) is for places at rest; on moving particles of fixed omega, transport counts twice. Mended: omega = m / H,
+// The semi-implicit scheme as it is printed (Bankole 2016, (5.22), (5.39)-(5.44), (6.8)) does not converge,
+// which is why the method uses other formulas. Written here from the print, 1-D, with direct solves; each of
+// three defects can be mended by itself:
+//   volumes    (5.22) is for places at rest; on moving particles of fixed omega, transport counts twice.
+//   Mended: omega = m / H,
 //              D H / D t = -H div v.
-//   velocities (5.41) sums over neighbours without the particle itself and without a norm: it keeps s = 1 - omega W(0) = 0.556 of each
-//              push of the pressure, so that waves run at sqrt(s) = 0.745 of their speed. Mended: v - g dt grad eta.
+//   velocities (5.41) sums over neighbours without the particle itself and without a norm: it keeps s = 1 -
+//   omega W(0) = 0.556 of each
+//              push of the pressure, so that waves run at sqrt(s) = 0.745 of their speed. Mended: v - g dt
+//              grad eta.
 //   areas      sum_j omega_j d_ij G_ij is not 1 where l = 1.5 dx (0.98765). Mended: divided by it.
 #include <catch2/catch.hpp>
 
@@ -22,7 +26,9 @@ namespace {
 constexpr double gravity = 9.81;  // m/s2; the bed is at zero, so that eta is the depth
 
 // The cubic spline and minus its slope, without their factors 2 / (3 l) and 2 / (3 l^2).
-double spline(double q) { return q < 1 ? 1 - 1.5 * q * q + 0.75 * q * q * q : q < 2 ? 0.25 * std::pow(2 - q, 3) : 0; }
+double spline(double q) {
+  return q < 1 ? 1 - 1.5 * q * q + 0.75 * q * q * q : q < 2 ? 0.25 * std::pow(2 - q, 3) : 0;
+}
 double minus_slope(double q) { return q < 1 ? 3 * q - 2.25 * q * q : q < 2 ? 0.75 * std::pow(2 - q, 2) : 0; }
 
 struct Mended {
@@ -34,7 +40,8 @@ class Printed {
  public:
   VectorXd x, eta, v;
 
-  Printed(int n, const Exact& exact, Mended mended) : x(n), eta(n), v(VectorXd::Zero(n)), n_(n), l_(1.5 * 2.0 / n), mended_(mended) {
+  Printed(int n, const Exact& exact, Mended mended)
+      : x(n), eta(n), v(VectorXd::Zero(n)), n_(n), l_(1.5 * 2.0 / n), mended_(mended) {
     for (int i = 0; i < n; ++i) x[i] = -1 + (i + 0.5) * 2.0 / n, eta[i] = exact.at(x[i], 0, 0).depth;
     mass_ = 2.0 / n * eta;
     omega_ = VectorXd::Constant(n, 2.0 / n);
@@ -69,14 +76,16 @@ class Printed {
     return 2 * omega_[i] * omega_[j] * slope(d) * scale;
   }
 
-  // (5.43): omega eta + dt sum A H (v - g dt d eta / d) = omega eta^n, H the larger of both (6.8), or the particle's own.
+  // (5.43): omega eta + dt sum A H (v - g dt d eta / d) = omega eta^n, H the larger of both (6.8), or the
+  // particle's own.
   VectorXd solve(double dt) const {
     std::vector<Eigen::Triplet<double>> entries;
     VectorXd right = omega_.cwiseProduct(eta);
     for (int i = 0; i < n_; ++i) {
       double sum = omega_[i];
       for_each_neighbour(i, [&](int j, double d, double side) {
-        const double face = area(i, j, d) * (mended_.volumes ? eta[i] : std::max(eta[i], eta[j])), a = gravity * dt * dt * face / d;
+        const double face = area(i, j, d) * (mended_.volumes ? eta[i] : std::max(eta[i], eta[j])),
+                     a = gravity * dt * dt * face / d;
         right[i] -= dt * face * 0.5 * (v[i] + v[j]) * side;
         entries.emplace_back(i, j, -a);
         sum += a;
@@ -143,7 +152,8 @@ TEST_CASE("sisph: the printed scheme stays far from the solution (7.1.1)", "[sis
 
 TEST_CASE("sisph: each defect of the printed scheme keeps it from converging, and none is left", "[sisph]") {
   // No better with twice as many particles and steps: each has an error that does not depend on dx.
-  for (const Mended& mended : {Mended{false, false, false}, Mended{false, true, true}, Mended{true, false, true}}) {
+  for (const Mended& mended :
+       {Mended{false, false, false}, Mended{false, true, true}, Mended{true, false, true}}) {
     const std::vector<double> e = errors(mended);
     CAPTURE(mended.volumes, mended.velocities, mended.areas, e[0], e[1], e[2]);
     CHECK(e[2] > 0.9 * e[1]);
@@ -168,7 +178,7 @@ TEST_CASE("sisph: waves of the printed scheme are a quarter too slow", "[sisph]"
       if (p.eta[i] > p.eta[top]) top = i;
     return p.x[top] / 0.15 / std::sqrt(gravity);
   };
-  const double kept = 1 - 2.0 / 3 / 1.5, sums = 0.98765;  // s, and what the areas add up to
+  const double kept = 1 - 2.0 / 3 / 1.5, sums = 0.98765;             // s, and what the areas add up to
   CHECK(crest({}) == Approx(std::sqrt(kept * sums)).margin(0.015));  // dx / (0.15 c) = 0.011
   CHECK(crest({true, true, true}) == Approx(1).margin(0.015));
 }

@@ -1,5 +1,5 @@
-// SISPH between walls of mirror pairs: standing waves in a box, a box at 30 degrees to the lattice and a circle, over two periods.
-// Bounds: what a prototype of the scheme reached, and a fifth more.
+// SISPH between walls of mirror pairs: standing waves in a box, a box at 30 degrees to the lattice and a
+// circle, over two periods. Bounds: what a prototype of the scheme reached, and a fifth more.
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -34,12 +34,17 @@ Basin turned_box() {
 
 // The first mode across: J1(k r) cos(angle), J1'(k R) = 0.
 Basin circle() {
-  constexpr double radius = 0.5, root = 1.8411837813406593, top = 0.5818652242815963;  // J1 at its first maximum
+  constexpr double radius = 0.5, root = 1.8411837813406593,
+                   top = 0.5818652242815963;  // J1 at its first maximum
   Basin basin{[](double x, double y) {
-                const double r = std::hypot(x, y);
-                return r > 0 ? std::cyl_bessel_j(1.0, root / radius * r) / top * x / r : 0.0;
-              }, root / radius, {}};
-  for (int n = 0; n <= 400; ++n) basin.line.push_back({radius * std::cos(2 * pi * (n % 400) / 400), radius * std::sin(2 * pi * (n % 400) / 400)});
+    const double r = std::hypot(x, y);
+    return r > 0 ? std::cyl_bessel_j(1.0, root / radius * r) / top * x / r : 0.0;
+              },
+              root / radius,
+              {}};
+  for (int n = 0; n <= 400; ++n)
+    basin.line.push_back(
+        {radius * std::cos(2 * pi * (n % 400) / 400), radius * std::sin(2 * pi * (n % 400) / 400)});
   return basin;
 }
 
@@ -50,7 +55,9 @@ Scene basin_scene(const Basin& basin, int n, double disorder) {
   scene.sisph.theta = 0.5;
   scene.walls = {Wall{basin.line}};
   scene.water.disorder = disorder;
-  scene.water.depth = [mode = basin.mode, amplitude = basin.amplitude](double x, double y) { return 1 + amplitude * mode(x, y); };
+  scene.water.depth = [mode = basin.mode, amplitude = basin.amplitude](double x, double y) {
+    return 1 + amplitude * mode(x, y);
+  };
   return scene;
 }
 
@@ -99,10 +106,12 @@ Seiche run(const Basin& basin, int n, double disorder, double courant = 1) {
     if (s < steps) flow.step(2 * period / steps);
   }
   double square = 0;
-  for (int i = 0; i < flow.size(); ++i) square += std::pow(depth(i) - 1 - basin.amplitude * basin.mode(x(i), y(i)), 2);
+  for (int i = 0; i < flow.size(); ++i)
+    square += std::pow(depth(i) - 1 - basin.amplitude * basin.mode(x(i), y(i)), 2);
   return {fitted_frequency(time, mode, omega) / omega - 1, std::sqrt(square / flow.size()) / basin.amplitude,
           std::abs(flow.method->totals().mass / mass - 1), *std::max_element(mode.begin(), mode.end()),
-          static_cast<double>(flow.method->report().iterations) / static_cast<double>(flow.method->report().solves)};
+          static_cast<double>(flow.method->report().iterations) /
+              static_cast<double>(flow.method->report().solves)};
 }
 
 struct Bound {
@@ -129,7 +138,9 @@ TEST_CASE("sisph seiche: a box on the lattice") {
   check(low, 0, {{20, 1.07e-2, 1.2e-2}, {40, 2.7e-3, 9.7e-4}, {80, 6.7e-4, 8.9e-5}});
 }
 
-TEST_CASE("sisph seiche: a box on disorder") { check(box(), 0.2, {{20, 1.2e-2, 1.6e-2}, {40, 3.4e-3, 2.1e-3}, {80, 1.5e-3, 6.7e-4}}); }
+TEST_CASE("sisph seiche: a box on disorder") {
+  check(box(), 0.2, {{20, 1.2e-2, 1.6e-2}, {40, 3.4e-3, 2.1e-3}, {80, 1.5e-3, 6.7e-4}});
+}
 
 TEST_CASE("sisph seiche: a turned box on disorder") {
   check(turned_box(), 0.2, {{20, 1.6e-2, 2.4e-2}, {40, 6.9e-3, 5.7e-3}, {80, 2.5e-3, 1.3e-3}});
@@ -155,8 +166,10 @@ TEST_CASE("sisph seiche: large steps", "[long]") {
   for (const double courant : {5.0, 10.0, 20.0, 50.0}) {
     const Basin basin = box();
     const Seiche s = run(basin, n, 0.2, courant);
-    const double omega = basin.k * std::sqrt(gravity), period = 2 * pi / omega, wanted = courant / n / std::sqrt(gravity);
-    const double dt = 2 * period / std::ceil(2 * period / wanted), rule = 2 / dt * std::atan(0.5 * omega * dt) / omega - 1;
+    const double omega = basin.k * std::sqrt(gravity), period = 2 * pi / omega,
+                 wanted = courant / n / std::sqrt(gravity);
+    const double dt = 2 * period / std::ceil(2 * period / wanted),
+                 rule = 2 / dt * std::atan(0.5 * omega * dt) / omega - 1;
     CAPTURE(courant, s.frequency_error, rule, s.l2, s.highest, s.mass_error, s.iterations);
     CHECK(std::abs(s.frequency_error - rule) <= 2e-3);
     CHECK(s.highest <= 1.01);  // stable

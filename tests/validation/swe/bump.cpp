@@ -1,4 +1,5 @@
-// Steady flow over a bump against the exact solution (Vacondio 2010, section 4.3): jump, transcritical, supercritical.
+// Steady flow over a bump against the exact solution (Vacondio 2010, section 4.3): jump, transcritical,
+// supercritical.
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -13,7 +14,8 @@ namespace {
 constexpr double cell = 0.05;  // m, dx
 constexpr int cells = 200;
 
-// Means of the particles that passed each cell of the channel: what stands still of a flow whose particles move.
+// Means of the particles that passed each cell of the channel: what stands still of a flow whose particles
+// move.
 struct Profile {
   std::vector<double> depth = std::vector<double>(cells), discharge = depth, count = depth;
 
@@ -40,14 +42,16 @@ struct Steady {
   // rms over the channel of the relative depth change per second.
   double change() const {
     double sum = 0;
-    for (std::size_t k = 0; k < cells; ++k) sum += std::pow((last.depth_in(k) / before.depth_in(k) - 1) / span, 2);
+    for (std::size_t k = 0; k < cells; ++k)
+      sum += std::pow((last.depth_in(k) / before.depth_in(k) - 1) / span, 2);
     return std::sqrt(sum / cells);
   }
   // Largest relative error of the discharge farther than `blur` from `jump`.
   double discharge_error(double exact, double jump = -1e9, double blur = 0) const {
     double most = 0;
     for (std::size_t k = 0; k < cells; ++k)
-      if (std::abs(middle(k) - jump) > blur) most = std::max(most, std::abs(last.discharge_in(k) / exact - 1));
+      if (std::abs(middle(k) - jump) > blur)
+        most = std::max(most, std::abs(last.discharge_in(k) / exact - 1));
     return most;
   }
   // Where the depth passes a value on its way up, behind the crest.
@@ -73,11 +77,14 @@ Steady run_to_steady(const Scene& scene, double span) {
   return s;
 }
 
-const SteadyBumpFlow& exact_of(const Scene& scene) { return dynamic_cast<const SteadyBumpFlow&>(*scene.compare.exact); }
+const SteadyBumpFlow& exact_of(const Scene& scene) {
+  return dynamic_cast<const SteadyBumpFlow&>(*scene.compare.exact);
+}
 
 }  // namespace
 
-// Bounds of the project's list of cases: steady below 1e-4 1/s, the discharge within 1 % outside the jump, the jump within 2 dx.
+// Bounds of the project's list of cases: steady below 1e-4 1/s, the discharge within 1 % outside the jump,
+// the jump within 2 dx.
 
 TEST_CASE("flow over a bump with a jump: steady, its discharge, its jump", "[long]") {
   const Scene scene = test::read_case("bump_i");
@@ -85,7 +92,8 @@ TEST_CASE("flow over a bump with a jump: steady, its discharge, its jump", "[lon
   REQUIRE(exact.jump());
   const double jump = *exact.jump();
   // The water before the jump is stretched: its kernels blur the jump by 2 h on both sides.
-  const double inflow = exact.at(0, 0, 0).depth, blur = 2 * scene.sph.eta * scene.boundaries[0].spacing * inflow / exact.depth_before();
+  const double inflow = exact.at(0, 0, 0).depth,
+               blur = 2 * scene.sph.eta * scene.boundaries[0].spacing * inflow / exact.depth_before();
   const Steady s = run_to_steady(scene, 20);
   CHECK(s.change() < 1e-4);
   CHECK(s.discharge_error(exact.discharge(), jump, blur) < 0.01);

@@ -54,17 +54,20 @@ void check_basin(const Basin& basin) {
 }  // namespace
 
 TEST_CASE("a lake over a hump stays at rest", "[slow]") {
-  // The lattice is no equilibrium of the summed densities: particles move until it is. Printed: < 0.01, order about 1.
+  // The lattice is no equilibrium of the summed densities: particles move until it is. Printed: < 0.01, order
+  // about 1.
   check_basin({"lake_at_rest", 0.005, 0.9, 0.04});
 }
 
 TEST_CASE("water around an island stays at rest", "[long]") {
-  // Printed: no speed, "convergent". The shore lies within one cell: of first order, fitted to four spacings as 0.94.
+  // Printed: no speed, "convergent". The shore lies within one cell: of first order, fitted to four spacings
+  // as 0.94.
   check_basin({"rest_island", 0.01, 0.8, 0.04});
 }
 
 TEST_CASE("water in a parabola stays at rest up to its shores", "[long]") {
-  // Printed: < 0.02 at the finest spacing, order below 1. First order is the least that is claimed here; fitted 1.45.
+  // Printed: < 0.02 at the finest spacing, order below 1. First order is the least that is claimed here;
+  // fitted 1.45.
   check_basin({"rest_parabola", 0.02, 1.0, 80});
 }
 
@@ -73,7 +76,8 @@ TEST_CASE("water in a parabola between walls stays at rest", "[long]") {
 }
 
 TEST_CASE("the well-balanced bed keeps water over a step at rest to round-off", "[long]") {
-  // Printed, without balancing: < 0.02. 1e-10 is a million roundings; bottom particles four times as dense, as in the thesis.
+  // Printed, without balancing: < 0.02. 1e-10 is a million roundings; bottom particles four times as dense,
+  // as in the thesis.
   const auto errors = still_at_four_spacings({"rest_step", 0.02, 0, 0.04}, true);
   for (const double error : errors) CHECK(error <= 1e-10);
 }

@@ -15,7 +15,8 @@ struct Rest {
 }  // namespace
 
 TEST_CASE("still water among curved and slanting walls stays still at all times", "[slow]") {
-  const Rest rest = GENERATE(Rest{"rest_circle", 0.004}, Rest{"rest_corner_300", 0.008}, Rest{"rest_corner_345", 0.008});
+  const Rest rest =
+      GENERATE(Rest{"rest_circle", 0.004}, Rest{"rest_corner_300", 0.008}, Rest{"rest_corner_345", 0.008});
   CAPTURE(rest.name);
   const test::Results s = test::run_case(rest.name);
   CHECK(s.steady.max_speed_rel < rest.bound);

@@ -16,7 +16,8 @@ TEST_CASE("flow in a sloping channel from rest becomes uniform", "[long]") {
     method->step(t, dt);
     t += dt;
   }
-  const double depth = 5, speed = std::pow(depth, 2.0 / 3) * std::sqrt(0.001) / scene.manning->n, celerity = std::sqrt(9.81 * depth);
+  const double depth = 5, speed = std::pow(depth, 2.0 / 3) * std::sqrt(0.001) / scene.manning->n,
+               celerity = std::sqrt(9.81 * depth);
   const auto u = on_host(method->fields().real("u")), v = on_host(method->fields().real("v"));
   const auto d = on_host(method->fields().real("depth"));
   const auto kind = on_host(method->fields().integer("kind"));

@@ -1,4 +1,5 @@
-// Where the semi-implicit method pays: an eddy at a Froude number of 0.01, steady, so that all change is error (docs/howto/choose_a_method.md).
+// Where the semi-implicit method pays: an eddy at a Froude number of 0.01, steady, so that all change is
+// error (docs/howto/choose_a_method.md).
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -25,7 +26,8 @@ Result run(double spacing, std::vector<std::string> keys = {}) {
 }  // namespace
 
 TEST_CASE("sisph: a slow eddy goes on turning at a celerity Courant number of 20", "[sisph]") {
-  const double bound[] = {1.4e-3, 2.1e-4, 3.0e-5};  // measured 1.26e-3, 1.91e-4, 2.65e-5; the water's own rms is 3.6e-2
+  const double bound[] = {1.4e-3, 2.1e-4,
+                          3.0e-5};  // measured 1.26e-3, 1.91e-4, 2.65e-5; the water's own rms is 3.6e-2
   double before = 0;
   int k = 0;
   for (const double spacing : {0.4, 0.2, 0.1}) {
@@ -37,9 +39,13 @@ TEST_CASE("sisph: a slow eddy goes on turning at a celerity Courant number of 20
   }
 }
 
-TEST_CASE("sisph: a slow eddy needs a fiftieth of the explicit method's steps and has a tenth of its error on twice its spacing", "[sisph]") {
+TEST_CASE(
+    "sisph: a slow eddy needs a fiftieth of the explicit method's steps and has a tenth of its error on "
+    "twice its spacing",
+    "[sisph]") {
   const Result semi_implicit = run(0.4), explicit_method = run(0.2, {"scene.method=sph-swe"});
-  CAPTURE(semi_implicit.velocity_rms, semi_implicit.steps, explicit_method.velocity_rms, explicit_method.steps);
+  CAPTURE(semi_implicit.velocity_rms, semi_implicit.steps, explicit_method.velocity_rms,
+          explicit_method.steps);
   CHECK(semi_implicit.velocity_rms < 0.1 * explicit_method.velocity_rms);
   CHECK(50 * semi_implicit.steps < explicit_method.steps);
 }

@@ -1,4 +1,5 @@
-// A solitary wave on a plane beach against the analytical solution of Synolakis (1987), benchmark BP01 of the NTHMP.
+// A solitary wave on a plane beach against the analytical solution of Synolakis (1987), benchmark BP01 of the
+// NTHMP.
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -42,11 +43,13 @@ double highest(const test::Flow& flow) {
 // Both methods have the bounds of the case.
 Scene scene_of(const std::string& method) {
   if (method == "sph-swe") return test::read_case("solitary_beach");
-  return test::read_case("solitary_beach", {"scene.method=" + method, "water.start=cells", "sisph.theta=0.5"});
+  return test::read_case("solitary_beach",
+                         {"scene.method=" + method, "water.start=cells", "sisph.theta=0.5"});
 }
 
 // Rms over the published times of column `time` up to the end of the case, against the column beside it.
-double series_error(const std::vector<std::vector<double>>& rows, std::size_t time, double x, const std::string& method) {
+double series_error(const std::vector<std::vector<double>>& rows, std::size_t time, double x,
+                    const std::string& method) {
   test::Flow flow(scene_of(method));
   double sum = 0, count = 0;
   for (const auto& row : rows) {

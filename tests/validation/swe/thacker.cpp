@@ -1,4 +1,5 @@
-// Water oscillating in a paraboloid against Thacker's exact solutions, one and five periods (Vacondio 2010, section 2.8).
+// Water oscillating in a paraboloid against Thacker's exact solutions, one and five periods (Vacondio 2010,
+// section 2.8).
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -38,7 +39,8 @@ Oscillation circling(const Fluid& fluid) {
   return {std::hypot(x, y) / mass / displacement, std::atan2(-y, x) * 180 / pi};
 }
 
-// The second moment of the radial motion is a pure cosine: I = L^2 (1 - A cos w t) / (3 sqrt(1 - A^2)) per mass.
+// The second moment of the radial motion is a pure cosine: I = L^2 (1 - A cos w t) / (3 sqrt(1 - A^2)) per
+// mass.
 Oscillation breathing(const Fluid& fluid, double period) {
   double moment = 0, rate = 0, mass = 0;
   for (std::size_t k = 0; k < fluid.size(); ++k) {
@@ -58,8 +60,8 @@ void check_after_five_periods(const test::CaseRun& run, const Oscillation& oscil
   CHECK(after_one.grid_l2_rel <= 3.5e-3);
   CHECK(run.summary.errors.depth_l2_rel <= 3e-3);
   CHECK(run.summary.mass.relative_error <= 1e-12);  // closed basin: no mass is ever touched, only summed
-  // A depth error of 0.3 % after five periods leaves room for 0.06 % of amplitude and phase (0.03 degrees) in each; three times
-  // that may hide from the depths where they are nearly uniform.
+  // A depth error of 0.3 % after five periods leaves room for 0.06 % of amplitude and phase (0.03 degrees) in
+  // each; three times that may hide from the depths where they are nearly uniform.
   CAPTURE(oscillation.amplitude, oscillation.phase);
   CHECK(std::abs(oscillation.amplitude - 1) / 5 <= 2e-3);
   CHECK(std::abs(oscillation.phase) / 5 <= 0.1);
@@ -74,14 +76,16 @@ TEST_CASE("the planar Thacker surface comes back after one and five periods", "[
 }
 
 TEST_CASE("the radial Thacker surface comes back after one and five periods") {
-  // The planar case hardly feels dissipation (the exact motion is rigid); this one does: 3 % with plain Lax-Friedrichs.
+  // The planar case hardly feels dissipation (the exact motion is rigid); this one does: 3 % with plain
+  // Lax-Friedrichs.
   const auto run = five_periods("thacker_radial");
   check_after_five_periods(run, breathing(run.fluid, run.summary.simulated / 5));
 }
 
 TEST_CASE("the Thacker motions converge with first order", "[long]") {
   const std::string name = GENERATE("thacker", "thacker_radial");
-  const double coarse = error_after_one(name, 100), middle = error_after_one(name, 50), fine = error_after_one(name, 25);
+  const double coarse = error_after_one(name, 100), middle = error_after_one(name, 50),
+               fine = error_after_one(name, 25);
   CAPTURE(name, coarse, middle, fine);
   CHECK(std::log2(coarse / fine) / 2 >= 1);  // the least-squares fit through three spacings in equal ratios
 }
@@ -92,8 +96,10 @@ TEST_CASE("reconstruction is what keeps the radial Thacker wave") {
 }
 
 TEST_CASE("pairs in single precision change neither the planar surface's error nor the mass") {
-  const test::Results exact = test::run_case("thacker"), mixed = test::run_case("thacker", {"sph.precision=mixed"});
-  // Pair sums differ by 1e-7 of their size; over 560 steps neighbours change, and with them the error by its own small part.
+  const test::Results exact = test::run_case("thacker"),
+                      mixed = test::run_case("thacker", {"sph.precision=mixed"});
+  // Pair sums differ by 1e-7 of their size; over 560 steps neighbours change, and with them the error by its
+  // own small part.
   CHECK(mixed.errors.depth_l2_rel == Approx(exact.errors.depth_l2_rel).epsilon(0.01));
   CHECK(mixed.mass.relative_error <= 1e-14);
 }

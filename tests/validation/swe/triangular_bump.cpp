@@ -1,16 +1,17 @@
-// Dam break over a triangular bump (CADAM, 38 m channel): four gauges against the measured depths, and against a finite-volume
-// solution of the same equations, which tells what is the particles' and what the equations' doing.
+// Dam break over a triangular bump (CADAM, 38 m channel): four gauges against the measured depths, and
+// against a finite-volume solution of the same equations, which tells what is the particles' and what the
+// equations' doing.
 #include <catch2/catch.hpp>
 
-#include "tests/support/solve/channel.hpp"
 #include "tests/support/run/data.hpp"
 #include "tests/support/run/run_case.hpp"
+#include "tests/support/solve/channel.hpp"
 
 using namespace freshet;
 
 namespace {
 
-constexpr double reservoir = 0.75, manning = 0.0125;  // m, s/m^(1/3)
+constexpr double reservoir = 0.75, manning = 0.0125;   // m, s/m^(1/3)
 constexpr double reading = 0.005, reading_time = 0.1;  // m, s, errors of the digitised curves
 
 struct Deviation {
@@ -24,8 +25,14 @@ struct Deviation {
 };
 
 test::Channel channel(const Scene& scene, int cells) {
-  return {0, 38, cells, scene.gravity, manning, [&](double x) { return scene.bed.elevation(x, 0); },
-          [&](double x) { return scene.water.depth(x, 0); }, {}};
+  return {0,
+          38,
+          cells,
+          scene.gravity,
+          manning,
+          [&](double x) { return scene.bed.elevation(x, 0); },
+          [&](double x) { return scene.water.depth(x, 0); },
+          {}};
 }
 
 // The levels of the finite volumes at the gauges every 0.05 s.
@@ -61,13 +68,15 @@ TEST_CASE("dam break over a triangular bump", "[triangular_bump][long]") {
     const Series& measured = *scene.gauges[g].measured;
     // Against the same equations: two percent of the reservoir's depth.
     CHECK(rms(reference[g], run.gauges[g]) <= 0.02 * reservoir);
-    // Against the experiment no worse than the equations themselves, but for the errors of reading: they turn the broad front
-    // of the reflected bore into a jump (7, 9, 3 and 3 cm rms) and come 0.4 s early to the bump.
+    // Against the experiment no worse than the equations themselves, but for the errors of reading: they turn
+    // the broad front of the reflected bore into a jump (7, 9, 3 and 3 cm rms) and come 0.4 s early to the
+    // bump.
     CHECK(result.rmse <= rms(measured, reference[g]) + reading);
     CHECK(result.peak <= peak_after(reference[g], 0, 40).value + reading);
     CHECK(result.peak >= 0.9 * result.measured_peak);
     const double arrival = arrival_after(reference[g], scene.gauges[g].arrival_level, 0, 40);
-    CHECK(std::abs(result.arrival - result.measured_arrival) <= std::abs(arrival - result.measured_arrival) + reading_time);
+    CHECK(std::abs(result.arrival - result.measured_arrival) <=
+          std::abs(arrival - result.measured_arrival) + reading_time);
   }
   CHECK(run.summary.mass.relative_error <= 1e-12);
 }

@@ -1,4 +1,5 @@
-// A wave draws back from a plane beach and runs up, against the hodograph solution (benchmark 1 of ISEC 2004).
+// A wave draws back from a plane beach and runs up, against the hodograph solution (benchmark 1 of ISEC
+// 2004).
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -23,7 +24,8 @@ double lag(const test::CaseRun& run) {
 
 TEST_CASE("the shore draws back and comes in again as the exact solution says", "[long]") {
   // An exact run-up. 1 % of the depth within 800 m is 0.5 m rms beside 20 m of draw-down,
-  // 0.5 m/s is 3 % of the fastest flow; the shore is a particle, at best within half a spacing: two are allowed.
+  // 0.5 m/s is 3 % of the fastest flow; the shore is a particle, at best within half a spacing: two are
+  // allowed.
   const auto drawn = test::finish_case("beach_wave", {"time.end=175", "compare.times=[160, 175]"});
   const auto run_up = test::finish_case("beach_wave");
   REQUIRE(run_up.summary.errors_at.size() == 3);
@@ -38,10 +40,12 @@ TEST_CASE("the shore draws back and comes in again as the exact solution says", 
 }
 
 TEST_CASE("the wave on the beach converges", "[long]") {
-  // First order at the moving shore would halve the errors. The landward part of the run-up is left out: there one light
-  // particle that was overtaken by its neighbour makes nine tenths of the error at some spacings and none at others.
+  // First order at the moving shore would halve the errors. The landward part of the run-up is left out:
+  // there one light particle that was overtaken by its neighbour makes nine tenths of the error at some
+  // spacings and none at others.
   const auto run = [](const char* dx) {
-    return test::run_case("beach_wave", {std::string("water.spacing=") + dx, "compare.where=x > 0 && x < 800"});
+    return test::run_case("beach_wave",
+                          {std::string("water.spacing=") + dx, "compare.where=x > 0 && x < 800"});
   };
   const test::Results coarse = run("20"), fine = run("10");
   for (const std::size_t k : {0, 1, 2}) {

@@ -1,4 +1,5 @@
-// Solitary wave on a conical island (Briggs et al. 1995, NTHMP BP06, case A): run-up around the island and gauges.
+// Solitary wave on a conical island (Briggs et al. 1995, NTHMP BP06, case A): run-up around the island and
+// gauges.
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -13,8 +14,8 @@ TEST_CASE("a solitary wave wraps around a conical island", "[bp06][long]") {
   if (!test::data_file("nthmp/BP06/briggs_caseA_gauges.csv")) return;
   const Scene scene = test::read_case("bp06");
   const test::Results s = test::run_case("bp06");
-  // Two sources of the measured run-up disagree (3.2 against 4.16 cm in front): between them, 20 % more on either side, which is
-  // the tolerance of the benchmark's own scripts (ptha).
+  // Two sources of the measured run-up disagree (3.2 against 4.16 cm in front): between them, 20 % more on
+  // either side, which is the tolerance of the benchmark's own scripts (ptha).
   double highest = 0;
   for (const RunUpResult& r : s.run_ups) {
     CAPTURE(r.name);
@@ -29,7 +30,8 @@ TEST_CASE("a solitary wave wraps around a conical island", "[bp06][long]") {
   int beside = 0;
   for (std::size_t g = 0; g < s.gauges.size(); ++g) {
     const GaugeResult& r = s.gauges[g];
-    const auto range = std::minmax_element(scene.gauges[g].measured->value.begin(), scene.gauges[g].measured->value.end());
+    const auto range =
+        std::minmax_element(scene.gauges[g].measured->value.begin(), scene.gauges[g].measured->value.end());
     errors += r.rmse / (*range.second - *range.first) / static_cast<double>(s.gauges.size());
     if (r.name == "g1" || r.name == "g2") continue;
     peaks += std::abs(r.peak / r.measured_peak - 1);

@@ -4,10 +4,10 @@
 #include <functional>
 
 #include "kernels/boundaries/walls/polyline.hpp"
-#include "src/scene/toml/choices.hpp"
-#include "src/scene/sections/sections.hpp"
 #include "src/scene/data/series.hpp"
 #include "src/scene/sections/boundaries/sides.hpp"
+#include "src/scene/sections/sections.hpp"
+#include "src/scene/toml/choices.hpp"
 
 namespace freshet::input {
 namespace {
@@ -68,18 +68,22 @@ std::vector<Point> read_line(Table& section, const Scene& scene) {
     return {};
   }
   if (line.size() < 2 || std::adjacent_find(line.begin(), line.end()) != line.end()) {
-    section.error("line", "'" + section.path_of("line") + "' must have two or more points, each different from the one before");
+    section.error("line", "'" + section.path_of("line") +
+                              "' must have two or more points, each different from the one before");
     return {};
   }
   if (bends_too_much(line)) {
-    section.error("line", "'" + section.path_of("line") + "' bends by more than " + shown(most_bend) + " degrees",
+    section.error("line",
+                  "'" + section.path_of("line") + "' bends by more than " + shown(most_bend) + " degrees",
                   "make two boundaries of it, with a wall between them");
     return {};
   }
   for (const Point& point : line)
     if (!require_inside(section, "line", "the boundary", point, scene)) return {};
   if (leads_out(line, scene)) {
-    section.error("line", "the left of '" + section.path_of("line") + "', where its water is, lies outside the domain", "reverse its points");
+    section.error(
+        "line", "the left of '" + section.path_of("line") + "', where its water is, lies outside the domain",
+        "reverse its points");
     return {};
   }
   return line;
@@ -104,7 +108,8 @@ void require_apart(const Table& section, const OpenBoundary& boundary, const Sce
     for (std::size_t k = 0; k + 1 < boundary.line.size(); ++k)
       for (std::size_t l = 0; l + 1 < other.line.size(); ++l)
         if (overlap(piece_between(boundary.line[k], boundary.line[k + 1]), &other.line[l], tolerance))
-          return section.error("name", "boundary '" + boundary.name + "' lies on boundary '" + other.name + "'",
+          return section.error("name",
+                               "boundary '" + boundary.name + "' lies on boundary '" + other.name + "'",
                                "let one end where the other begins");
 }
 
@@ -128,8 +133,8 @@ Series read_inline(Table& table) {
   Value<std::vector<double>> times = table.numbers("times"), values = table.numbers("values");
   Series series{times.required(), values.required()};
   if (series.t.empty() || series.t.size() != series.value.size()) {
-    values.fail("'" + table.path_of("values") + "' has " + counted(series.value.size(), "number") + ", 'times' has " +
-                    std::to_string(series.t.size()),
+    values.fail("'" + table.path_of("values") + "' has " + counted(series.value.size(), "number") +
+                    ", 'times' has " + std::to_string(series.t.size()),
                 "give one value for each time");
     return {};
   }
@@ -156,7 +161,8 @@ Series read_quantity(Table& section, const std::string& key, const std::string& 
 // Reads what a law asks for.
 class LawReader {
  public:
-  LawReader(Table& section, const Scene& scene, OpenBoundary& boundary) : section_(section), scene_(scene), boundary_(boundary) {}
+  LawReader(Table& section, const Scene& scene, OpenBoundary& boundary)
+      : section_(section), scene_(scene), boundary_(boundary) {}
 
   void in_time(const std::string& key, const std::string& unit) { impose(key, key, unit); }
   void level() {

@@ -13,6 +13,8 @@ TimeSeries in_time(const OpenBoundary& boundary, std::size_t k) {
 
 }  // namespace
 
-LawInTime law_in_time(const OpenBoundary& boundary) { return {boundary.law, in_time(boundary, 0), in_time(boundary, 1)}; }
+LawInTime law_in_time(const OpenBoundary& boundary) {
+  return {boundary.law, in_time(boundary, 0), in_time(boundary, 1)};
+}
 
 }  // namespace freshet

@@ -57,7 +57,9 @@ std::vector<std::array<Point, 2>> closed_parts(const Point& from, const Point& t
 
 void add_ends(Scene& scene) {
   for (const double x : {scene.domain.low[0], scene.domain.high[0]}) {
-    const auto here = [x](const OpenBoundary& boundary) { return !boundary.line.empty() && boundary.line[0][0] == x; };
+    const auto here = [x](const OpenBoundary& boundary) {
+      return !boundary.line.empty() && boundary.line[0][0] == x;
+    };
     if (std::none_of(scene.boundaries.begin(), scene.boundaries.end(), here))
       scene.walls.push_back({{Point{x, 0}}});
   }

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "kernels/boundaries/walls/polyline.hpp"
-#include "src/scene/sections/sections.hpp"
 #include "src/scene/sections/boundaries/sides.hpp"
+#include "src/scene/sections/sections.hpp"
 
 namespace freshet::input {
 namespace {
@@ -34,7 +34,8 @@ void read_at(Table& section, Scene& scene) {
 }
 
 // The points of `key`, at least `least` of them, all in the domain; empty after an error.
-std::vector<Point> read_corners(Table& section, const std::string& key, std::size_t least, const Scene& scene) {
+std::vector<Point> read_corners(Table& section, const std::string& key, std::size_t least,
+                                const Scene& scene) {
   Value<std::vector<Point>> line = section.points(key);
   if (!line.optional()) return {};
   const std::vector<Point> points = *line.optional();
@@ -45,7 +46,8 @@ std::vector<Point> read_corners(Table& section, const std::string& key, std::siz
   }
   for (std::size_t k = 0; k + 1 < points.size(); ++k) {
     if (points[k] == points[k + 1]) {
-      line.fail("point " + std::to_string(k + 2) + " of the wall repeats the one before it", "remove one of them");
+      line.fail("point " + std::to_string(k + 2) + " of the wall repeats the one before it",
+                "remove one of them");
       break;
     }
   }
@@ -66,8 +68,8 @@ void read_polygon(Table& section, Scene& scene) {
   add_closed(points, side, scene);
 }
 
-// A circle as a polygon whose sides are about half a spacing long; its corners lie as far outside as their middles inside, so
-// that it holds the circle's area.
+// A circle as a polygon whose sides are about half a spacing long; its corners lie as far outside as their
+// middles inside, so that it holds the circle's area.
 void read_circle(Table& section, Scene& scene) {
   const WaterSide side = read_side_of_water(section);
   Table circle = section.table("circle");
@@ -78,11 +80,13 @@ void read_circle(Table& section, Scene& scene) {
     section.error("circle", "a 1-D scene has no circles", "write at = x");
     return;
   }
-  const int sides = std::max(12, static_cast<int>(std::lround(2 * pi * radius / (0.5 * scene.water.spacing))));
+  const int sides =
+      std::max(12, static_cast<int>(std::lround(2 * pi * radius / (0.5 * scene.water.spacing))));
   const double corner = radius * std::sqrt(2 * pi / (sides * std::sin(2 * pi / sides)));
   std::vector<Point> points;
   for (int k = 0; k < sides; ++k)
-    points.push_back({centre[0] + corner * std::cos(2 * pi * k / sides), centre[1] + corner * std::sin(2 * pi * k / sides)});
+    points.push_back({centre[0] + corner * std::cos(2 * pi * k / sides),
+                      centre[1] + corner * std::sin(2 * pi * k / sides)});
   add_closed(points, side, scene);
 }
 
@@ -92,7 +96,8 @@ void note_leak(Table& section, const Scene& scene, std::size_t wall, const Point
   for (std::size_t other = 0; other < scene.walls.size(); ++other) {
     const std::vector<Point>& line = scene.walls[other].line;
     for (std::size_t k = 0; k + 1 < line.size(); ++k) {
-      const bool own_end = other == wall && (k == 0 || k + 2 == line.size()) && (line[k] == end || line[k + 1] == end);
+      const bool own_end =
+          other == wall && (k == 0 || k + 2 == line.size()) && (line[k] == end || line[k + 1] == end);
       if (!own_end) gap = std::min(gap, distance(end, piece_between(line[k], line[k + 1])));
     }
     if (other == wall && line.size() > 2) gap = std::min(gap, distance(line.front(), Polyline{line.back()}));

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "kernels/boundaries/walls/polyline.hpp"
-#include "src/scene/toml/choices.hpp"
 #include "src/scene/sections/sections.hpp"
+#include "src/scene/toml/choices.hpp"
 
 namespace freshet::input {
 namespace {
@@ -12,7 +12,8 @@ Point vector_or(Table& section, const std::string& key, const std::string& what,
   Value<std::vector<double>> numbers = section.numbers(key, what);
   if (!numbers.optional()) return otherwise;
   if (numbers.optional()->size() != 2) {
-    numbers.fail("'" + section.path_of(key) + "' has " + std::to_string(numbers.optional()->size()) + " numbers; it needs two: " + what);
+    numbers.fail("'" + section.path_of(key) + "' has " + std::to_string(numbers.optional()->size()) +
+                 " numbers; it needs two: " + what);
     return otherwise;
   }
   return {(*numbers.optional())[0], (*numbers.optional())[1]};
@@ -58,10 +59,13 @@ void read_fpm(Table& section, Scene& scene) {
   fpm.support = section.number("support").within(2.2, 6).otherwise(fpm.support);
   fpm.hole = section.number("hole").within(0.75, 1.25).otherwise(fpm.hole);
   if (const auto grading = section.function("grading").optional()) fpm.grading = *grading;
-  fpm.by_neighbours = section.choice<bool>("support_by", {{"spacing", false}, {"neighbours", true}}).otherwise(fpm.by_neighbours);
+  fpm.by_neighbours = section.choice<bool>("support_by", {{"spacing", false}, {"neighbours", true}})
+                          .otherwise(fpm.by_neighbours);
   fpm.scheme = section.choice("scheme", named(fpm::pressure_schemes())).otherwise(fpm.scheme);
-  fpm.implicit_viscosity = section.choice<bool>("diffusion", {{"explicit", false}, {"implicit", true}}).otherwise(fpm.implicit_viscosity);
-  fpm.slip = section.choice<bool>("walls", {{"slip", true}, {"no-slip", false}}).otherwise(fpm.viscosity == 0);
+  fpm.implicit_viscosity = section.choice<bool>("diffusion", {{"explicit", false}, {"implicit", true}})
+                               .otherwise(fpm.implicit_viscosity);
+  fpm.slip =
+      section.choice<bool>("walls", {{"slip", true}, {"no-slip", false}}).otherwise(fpm.viscosity == 0);
   fpm.tolerance = section.number("tolerance").within(1e-14, 1e-2).otherwise(fpm.tolerance);
 }
 
@@ -70,9 +74,13 @@ void read_periodic(Table& domain, Scene& scene) {
   if (axes)
     for (const int axis : *axes) scene.fpm->periodic[static_cast<std::size_t>(axis)] = true;
   for (std::size_t axis = 0; axis < 2; ++axis) {
-    const double length = scene.domain.high[axis] - scene.domain.low[axis], least = (scene.fpm->grading ? 10 : 2.5) * (scene.fpm->by_neighbours ? 1.5 : 1) * scene.fpm->support * scene.water.spacing;
+    const double length = scene.domain.high[axis] - scene.domain.low[axis],
+                 least = (scene.fpm->grading ? 10 : 2.5) * (scene.fpm->by_neighbours ? 1.5 : 1) *
+                         scene.fpm->support * scene.water.spacing;
     if (scene.fpm->periodic[axis] && length < least)
-      domain.error("periodic", "the domain is " + shown(length) + " m long; a periodic one needs 2.5 of the longest supports, " + shown(least) + " m",
+      domain.error("periodic",
+                   "the domain is " + shown(length) +
+                       " m long; a periodic one needs 2.5 of the longest supports, " + shown(least) + " m",
                    "a smaller water.spacing");
   }
 }

@@ -8,8 +8,9 @@ namespace freshet::input {
 
 void read_scene_section(Table& section, Scene& scene) {
   scene.name = section.text("name").otherwise(scene.name);
-  scene.method = section.choice<std::string>("method", {{"sph-swe", "sph-swe"}, {"sisph", "sisph"}, {"fpm", "fpm"}})
-                     .otherwise(scene.method);
+  scene.method =
+      section.choice<std::string>("method", {{"sph-swe", "sph-swe"}, {"sisph", "sisph"}, {"fpm", "fpm"}})
+          .otherwise(scene.method);
   scene.gravity = section.number("gravity", "m/s2").positive().otherwise(scene.gravity);
   section.context().gravity = scene.gravity;
 }
@@ -57,7 +58,8 @@ void read_time(Table& section, const ComparePlan& compare, Scene& scene) {
                   "the run ends before the comparison window of " + shown(compare.window) + " s is over");
   }
   if (end && !scene.compare.times.empty() && scene.compare.times.back() > scene.end_time) {
-    section.error("end", "the run ends before " + shown(scene.compare.times.back()) + " s, the last of 'compare.times'");
+    section.error("end", "the run ends before " + shown(scene.compare.times.back()) +
+                             " s, the last of 'compare.times'");
   }
   scene.cfl = section.number("cfl")
                   .positive()
@@ -65,8 +67,8 @@ void read_time(Table& section, const ComparePlan& compare, Scene& scene) {
                   .otherwise(scene.cfl);
   Value<double> step = section.number("dt", "s").positive();
   if (step.given() && scene.method != "sisph")
-    section.context().notes.push_back("time.dt counts for the method \"sisph\" alone; the step of \"" + scene.method +
-                                      "\" follows from time.cfl");
+    section.context().notes.push_back("time.dt counts for the method \"sisph\" alone; the step of \"" +
+                                      scene.method + "\" follows from time.cfl");
   scene.time_step = step.otherwise(scene.time_step);
 }
 

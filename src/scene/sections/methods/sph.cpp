@@ -1,8 +1,8 @@
 // [sph]: kernel, stabilisation, walls and the density iteration of explicit SPH.
 #include <cmath>
 
-#include "src/scene/toml/choices.hpp"
 #include "src/scene/sections/sections.hpp"
+#include "src/scene/toml/choices.hpp"
 
 namespace freshet::input {
 namespace {
@@ -44,9 +44,11 @@ void read_precision(Table& section, Sph& sph) {
   sph.mixed = mixed.otherwise(false);
   constexpr double least = 1e-6;  // a few times the round-off of sums in single precision
   if (sph.mixed && sph.newton_tolerance < least)
-    mixed.fail("sums of pairs in single precision cannot meet 'sph.newton_tolerance' below 1e-6", "raise it, or use \"double\"");
+    mixed.fail("sums of pairs in single precision cannot meet 'sph.newton_tolerance' below 1e-6",
+               "raise it, or use \"double\"");
   if (sph.mixed && sph.well_balanced)
-    mixed.fail("'sph.well_balanced' balances forces to round-off, pairs in single precision to 1e-7 of them", "use \"double\"");
+    mixed.fail("'sph.well_balanced' balances forces to round-off, pairs in single precision to 1e-7 of them",
+               "use \"double\"");
 }
 
 }  // namespace
@@ -62,7 +64,8 @@ bool read_sph(Table& section, Scene& scene) {
       section.number("newton_tolerance").within(1e-14, 0.1).otherwise(sph.newton_tolerance);
   // What a density 1.6 times the initial one gives.
   sph.h_floor = section.number("h_floor").within(0, 1).otherwise(std::pow(1.6, -1.0 / dimension));
-  // In 1-D a longer h costs nothing, and water stretches along its only direction: at 3 h0 it could not get thinner than a third.
+  // In 1-D a longer h costs nothing, and water stretches along its only direction: at 3 h0 it could not get
+  // thinner than a third.
   sph.h_cap = section.number("h_cap").at_least(1).otherwise(dimension == 2 ? 3.0 : 30.0);
   read_walls(section, sph);
   const auto acceleration =

@@ -83,7 +83,8 @@ Solution read_hump(Table& table, const Scene& scene) {
   hump.plane = scene.domain.dimension == 1;
   hump.level = table.number("level", "m").positive().required(1);
   hump.amplitude = table.number("amplitude", "m")
-                       .check([&hump](double a) { return a > -hump.level; }, "above minus 'level' (" + shown(hump.level) + ")")
+                       .check([&hump](double a) { return a > -hump.level; },
+                              "above minus 'level' (" + shown(hump.level) + ")")
                        .required(0.1);
   hump.sigma = table.number("sigma", "m").positive().required(0.1);
   const Point centre = table.point("centre", scene.domain.dimension).otherwise({0, 0});
@@ -101,7 +102,8 @@ Solution read_eddy(Table& table, const Scene& scene) {
   turning.level = table.number("level", "m").positive().required(1);
   const double fastest = std::sqrt(2 * scene.gravity * turning.level / std::exp(1.0));
   turning.speed = table.number("speed", "m/s")
-                      .check([fastest](double v) { return std::abs(v) < fastest; }, "between -" + rounded(fastest) + " and " + rounded(fastest),
+                      .check([fastest](double v) { return std::abs(v) < fastest; },
+                             "between -" + rounded(fastest) + " and " + rounded(fastest),
                              "a faster eddy of this depth has no water in its middle")
                       .required(0.1);
   turning.radius = table.number("radius", "m").positive().required(1);
@@ -109,7 +111,8 @@ Solution read_eddy(Table& table, const Scene& scene) {
   turning.x0 = centre[0], turning.y0 = centre[1];
   if (scene.bed.elevation) table.error("type", "the eddy has a flat bed", "leave out [bed]");
   if (scene.domain.dimension == 1) table.error("type", "the eddy needs a 2-D domain");
-  return {eddy(turning, scene.gravity), shown(turning.speed) + " m/s at " + shown(turning.radius) + " m, " + shown(turning.level) + " m deep"};
+  return {eddy(turning, scene.gravity), shown(turning.speed) + " m/s at " + shown(turning.radius) + " m, " +
+                                            shown(turning.level) + " m deep"};
 }
 
 Solution read_riemann(Table& table, const Scene& scene) {
@@ -123,18 +126,20 @@ Solution read_riemann(Table& table, const Scene& scene) {
   const RiemannState left = state("left"), right = state("right");
   const double at = table.number("at", "m").otherwise(0);
   if (scene.bed.elevation) table.error("type", "the Riemann problem has a flat bed", "leave out [bed]");
-  return {riemann(left, right, at, scene.gravity), shown(left.depth) + " m, " + shown(left.u) + " m/s | " + shown(right.depth) +
-                                                       " m, " + shown(right.u) + " m/s, at " + shown(at) + " m"};
+  return {riemann(left, right, at, scene.gravity), shown(left.depth) + " m, " + shown(left.u) + " m/s | " +
+                                                       shown(right.depth) + " m, " + shown(right.u) +
+                                                       " m/s, at " + shown(at) + " m"};
 }
 
 Solution read_radial_dam(Table& table, const Scene& scene) {
   RadialDam dam{};
   dam.inner = table.number("inner", "m").positive().required(2);
-  dam.outer = table.number("outer", "m")
-                  .at_least(0)
-                  .check([&dam](double depth) { return depth < dam.inner; }, "below 'inner' (" + shown(dam.inner) + ")",
-                         "the deep water of this solution is inside")
-                  .required(1);
+  dam.outer =
+      table.number("outer", "m")
+          .at_least(0)
+          .check([&dam](double depth) { return depth < dam.inner; },
+                 "below 'inner' (" + shown(dam.inner) + ")", "the deep water of this solution is inside")
+          .required(1);
   dam.radius = table.number("radius", "m").positive().required(1);
   const Point centre = table.point("centre", scene.domain.dimension).otherwise({0, 0});
   dam.x0 = centre[0];
@@ -149,12 +154,16 @@ Solution read_beach(Table& table, const Scene& scene) {
   Beach beach{};
   beach.slope = table.number("slope").positive().required(0.1);
   beach.length = table.number("length", "m").positive().required(1);
-  Value<std::vector<double>> humps = table.numbers("humps", "numbers, three to a hump: height, steepness, place");
+  Value<std::vector<double>> humps =
+      table.numbers("humps", "numbers, three to a hump: height, steepness, place");
   const std::vector<double> given = humps.required();
-  if (given.size() % 3 != 0) humps.fail("'compare.exact.humps' has " + std::to_string(given.size()) + " numbers; each hump has three");
-  for (std::size_t k = 0; k + 2 < given.size(); k += 3) beach.humps.push_back({given[k], given[k + 1], given[k + 2]});
-  return {beach_wave(beach, scene.gravity),
-          std::to_string(beach.humps.size()) + " humps on a slope of " + shown(beach.slope) + ", length " + shown(beach.length) + " m"};
+  if (given.size() % 3 != 0)
+    humps.fail("'compare.exact.humps' has " + std::to_string(given.size()) + " numbers; each hump has three");
+  for (std::size_t k = 0; k + 2 < given.size(); k += 3)
+    beach.humps.push_back({given[k], given[k + 1], given[k + 2]});
+  return {beach_wave(beach, scene.gravity), std::to_string(beach.humps.size()) + " humps on a slope of " +
+                                                shown(beach.slope) + ", length " + shown(beach.length) +
+                                                " m"};
 }
 
 Solution read_bump(Table& table, const Scene& scene) {
@@ -247,7 +256,8 @@ ComparePlan read_compare(Table& section, Scene& scene) {
   scene.compare.steady = section.boolean("steady").otherwise(solution.steady);
   for (const char* key : {"times", "where"})
     if (section.has(key) && !section.has("exact"))
-      section.error(key, "'compare." + std::string(key) + "' needs an exact solution", "name one as compare.exact");
+      section.error(key, "'compare." + std::string(key) + "' needs an exact solution",
+                    "name one as compare.exact");
   ComparePlan plan;
   plan.window = read_window(section, solution, scene);
   plan.around_end = section.choice<bool>("spread", {{"before", false}, {"around", true}}).otherwise(false);

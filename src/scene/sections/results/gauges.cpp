@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/scene/sections/sections.hpp"
 #include "src/scene/data/series.hpp"
+#include "src/scene/sections/sections.hpp"
 
 namespace freshet::input {
 namespace {
@@ -24,7 +24,8 @@ std::array<Point, 2> transect_line(Table& section, const Scene& scene) {
   } else {
     ends = section.points("line").required();
   }
-  if (ends.size() == 2 && ends[0] != ends[1] && require_inside(section, "line", "the profile", ends[0], scene) &&
+  if (ends.size() == 2 && ends[0] != ends[1] &&
+      require_inside(section, "line", "the profile", ends[0], scene) &&
       require_inside(section, "line", "the profile", ends[1], scene))
     return {ends[0], ends[1]};
   if (!ends.empty() && (ends.size() != 2 || ends[0] == ends[1]))
@@ -105,10 +106,11 @@ void read_transect(Table& section, Scene& scene) {
   transect.line = transect_line(section, scene);
   transect.one_dimensional = scene.domain.dimension == 1;
   const double end = scene.end_time;
-  transect.time = section.number("time", "s")
-                     .at_least(0)
-                     .check([end](double t) { return !(end > 0) || t <= end; }, "at most time.end (" + shown(end) + ")")
-                     .required();
+  transect.time =
+      section.number("time", "s")
+          .at_least(0)
+          .check([end](double t) { return !(end > 0) || t <= end; }, "at most time.end (" + shown(end) + ")")
+          .required();
   transect.spacing = section.number("spacing", "m").positive().otherwise(scene.water.spacing);
   Table measured = section.table("measured");
   if (measured.given()) transect.measured = read_series(measured, SeriesUse::measured, "x");

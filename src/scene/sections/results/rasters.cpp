@@ -10,12 +10,15 @@ void read_rasters(Table& section, Scene& scene) {
   Rasters rasters;
   Value<double> spacing = section.number("spacing", "m");
   spacing.positive();
-  rasters.spacing = spacing.otherwise(2 * scene.water.spacing);  // a kernel is 5 spacings wide: finer cells show no more
+  rasters.spacing =
+      spacing.otherwise(2 * scene.water.spacing);  // a kernel is 5 spacings wide: finer cells show no more
   const Domain& domain = scene.domain;
-  const double cells = (domain.high[0] - domain.low[0]) * (domain.high[1] - domain.low[1]) / (rasters.spacing * rasters.spacing);
+  const double cells = (domain.high[0] - domain.low[0]) * (domain.high[1] - domain.low[1]) /
+                       (rasters.spacing * rasters.spacing);
   constexpr double most = 1e8;  // a gigabyte and more of each map as text
   if (section.given() && domain.dimension == 2 && cells > most)
-    spacing.fail("a raster of cells of " + shown(rasters.spacing) + " m has " + shown(std::round(1e-6 * cells)) + " million; at most 100 million are written",
+    spacing.fail("a raster of cells of " + shown(rasters.spacing) + " m has " +
+                     shown(std::round(1e-6 * cells)) + " million; at most 100 million are written",
                  "a larger raster.spacing");
   rasters.every = read_duration(section, "every", scene).value_or(scene.output.every);
   rasters.what = section

@@ -139,9 +139,7 @@ double read_file_bed(Table& section, Scene& scene) {
     scene.bed.nodata = file.nodata;
     scene.bed.description = "file " + name + " (" + file.what + ")";
     return file.spacing;
-  } catch (const BadData& bad) {
-    path.fail(bad.what(), bad.help, Blame::data);
-  }
+  } catch (const BadData& bad) { path.fail(bad.what(), bad.help, Blame::data); }
   return 0;
 }
 

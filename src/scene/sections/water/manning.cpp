@@ -6,14 +6,15 @@
 #include "kernels/boundaries/walls/polyline.hpp"
 #include "src/scene/data/files.hpp"
 #include "src/scene/data/grid_file.hpp"
-#include "src/scene/shapes/region.hpp"
 #include "src/scene/sections/sections.hpp"
+#include "src/scene/shapes/region.hpp"
 
 namespace freshet::input {
 namespace {
 
 constexpr double roughest = 1;  // s/m^(1/3), far beyond dense forest (0.2): what is larger is not an n
-const char* const strickler = "n is 0.01 (concrete) to 0.2 (forest) s/m^(1/3); a Strickler coefficient of 30 is n = 1/30";
+const char* const strickler =
+    "n is 0.01 (concrete) to 0.2 (forest) s/m^(1/3); a Strickler coefficient of 30 is n = 1/30";
 
 Value<double> read_n(Table& section, const std::string& key) {
   Value<double> n = section.number(key, "s/m^(1/3)");
@@ -31,7 +32,8 @@ struct RoughRegion {
   }
 };
 
-// The first region that holds the place decides. The lattice is that of the bed or, where it is finer, of the water.
+// The first region that holds the place decides. The lattice is that of the bed or, where it is finer, of the
+// water.
 Manning read_regions(Table& section, const Scene& scene) {
   const double rest = read_n(section, "default").required();
   const bool line = scene.domain.dimension == 1;
@@ -42,10 +44,12 @@ Manning read_regions(Table& section, const Scene& scene) {
     regions.push_back({corners, read_n(region, "n").required()});
   }
   Manning manning(rest);
-  const double step = std::min(scene.water.spacing, scene.bed.spacing > 0 ? scene.bed.spacing : scene.water.spacing);
+  const double step =
+      std::min(scene.water.spacing, scene.bed.spacing > 0 ? scene.bed.spacing : scene.water.spacing);
   manning.node = {scene.domain.low[0] + 0.5 * step, line ? 0 : scene.domain.low[1] + 0.5 * step};
   manning.step = {step, step};
-  manning.description = std::to_string(regions.size()) + " regions, elsewhere n = " + shown(rest) + " s/m^(1/3)";
+  manning.description =
+      std::to_string(regions.size()) + " regions, elsewhere n = " + shown(rest) + " s/m^(1/3)";
   manning.map = [regions, rest, line](double x, double y) {
     for (const RoughRegion& region : regions)
       if (region.holds(x, y, line)) return region.n;
@@ -59,10 +63,14 @@ void require_roughness(const Raster& raster, const std::optional<double>& rest, 
   for (int j = 0; j < raster.ny; ++j)
     for (int i = 0; i < raster.nx; ++i) {
       const double n = raster.at(i, j);
-      const std::string where = " at (" + rounded(raster.x0 + i * raster.dx) + ", " + rounded(raster.y0 + j * raster.dy) + ")";
-      if (std::isnan(n) && !rest) throw BadData("'" + name + "' has no value" + where, "name one for such places: default = 0.03");
+      const std::string where =
+          " at (" + rounded(raster.x0 + i * raster.dx) + ", " + rounded(raster.y0 + j * raster.dy) + ")";
+      if (std::isnan(n) && !rest)
+        throw BadData("'" + name + "' has no value" + where, "name one for such places: default = 0.03");
       if (n < 0 || n > roughest)
-        throw BadData("'" + name + "' has n = " + shown(n) + where + "; it must be between 0 and " + shown(roughest), strickler);
+        throw BadData(
+            "'" + name + "' has n = " + shown(n) + where + "; it must be between 0 and " + shown(roughest),
+            strickler);
     }
 }
 
@@ -73,8 +81,8 @@ void require_extent(const Raster& raster, const Domain& domain, const std::strin
     const double slack = 1e-6 * (high[k] - low[k]);
     if (domain.low[k] >= low[k] - slack && domain.high[k] <= high[k] + slack) continue;
     const std::string letter = k == 0 ? "x" : "y";
-    throw BadData("'" + name + "' covers " + letter + " = " + rounded(low[k]) + " to " + rounded(high[k]) + " m, the domain " +
-                      rounded(domain.low[k]) + " to " + rounded(domain.high[k]) + " m",
+    throw BadData("'" + name + "' covers " + letter + " = " + rounded(low[k]) + " to " + rounded(high[k]) +
+                      " m, the domain " + rounded(domain.low[k]) + " to " + rounded(domain.high[k]) + " m",
                   "name an n for what lies outside: default = 0.03");
   }
 }
@@ -94,7 +102,8 @@ Manning read_raster(Table& section, const Scene& scene) {
   const auto registration = read_registration(section);
   const std::optional<double> rest = read_n(section, "default").optional();
   Manning manning(rest.value_or(0));
-  if (scene.domain.dimension == 1) path.fail("a raster of Manning's n needs a 2-D scene", "use regions with box = [x0, x1]");
+  if (scene.domain.dimension == 1)
+    path.fail("a raster of Manning's n needs a 2-D scene", "use regions with box = [x0, x1]");
   if (!path.optional()) return manning;
   const std::string name = file_name(*path.optional());
   try {
@@ -103,11 +112,10 @@ Manning read_raster(Table& section, const Scene& scene) {
     if (!rest) require_extent(raster, scene.domain, name);
     manning.node = {raster.x0, raster.y0};
     manning.step = {raster.dx, raster.dy};
-    manning.description = "file " + name + " (" + std::to_string(raster.nx) + " x " + std::to_string(raster.ny) + " values)";
+    manning.description =
+        "file " + name + " (" + std::to_string(raster.nx) + " x " + std::to_string(raster.ny) + " values)";
     manning.map = nearest_cell(std::move(raster), manning.n);
-  } catch (const BadData& bad) {
-    path.fail(bad.what(), bad.help, Blame::data);
-  }
+  } catch (const BadData& bad) { path.fail(bad.what(), bad.help, Blame::data); }
   return manning;
 }
 

@@ -1,11 +1,12 @@
 // [split] and [merge]: how much area particles may and must cover.
-#include "src/scene/shapes/region.hpp"
 #include "src/scene/sections/sections.hpp"
+#include "src/scene/shapes/region.hpp"
 
 namespace freshet::input {
 namespace {
 
-constexpr double relaxation = 10;  // h/c: quick enough to gain resolution, slow enough not to make noise (docs/design.md)
+constexpr double relaxation =
+    10;  // h/c: quick enough to gain resolution, slow enough not to make noise (docs/design.md)
 
 AreaLimit read_area(Table& section, const Scene& scene) {
   AreaLimit limit;
@@ -26,8 +27,9 @@ AreaLimit read_area(Table& section, const Scene& scene) {
 
 void refuse_balance(Table& section, const Scene& scene) {
   if (scene.sph.well_balanced)
-    section.error("area", "'sph.well_balanced' holds every particle to its depth at t = 0, which new ones do not have",
-                  "leave out either of the two");
+    section.error(
+        "area", "'sph.well_balanced' holds every particle to its depth at t = 0, which new ones do not have",
+        "leave out either of the two");
 }
 
 }  // namespace
@@ -43,7 +45,9 @@ void read_split(Table& section, Scene& scene) {
   else into.check([](int n) { return n == 7; }, "7 in 2-D: a hexagon and its middle");
   split.into = into.otherwise(line ? 3 : 7);
   split.alpha = section.number("alpha").within(0.2, 1.0).otherwise(line ? 0.9 : 0.92);
-  split.eps = section.number("eps").within(0.05, 1.0).otherwise(line && split.into == 2 ? 0.25 : line ? 1.0 / 3 : 0.36);
+  split.eps = section.number("eps").within(0.05, 1.0).otherwise(line && split.into == 2 ? 0.25
+                                                                : line                  ? 1.0 / 3
+                                                                                        : 0.36);
   split.relax = section.number("relax", "h/c").at_least(0).otherwise(relaxation);
   split.linear = section.choice<bool>("velocity", {{"same", false}, {"linear", true}}).otherwise(false);
   split.least_depth = section.number("least_depth", "m").at_least(0).otherwise(split.least_depth);

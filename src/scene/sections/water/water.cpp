@@ -39,8 +39,9 @@ void read_spacing(Table& section, Scene& scene) {
                            "at most the domain's width (" + shown(smallest) + ")");
   water.spacing = spacing.required();
   water.start = section
-                    .choice<Water::Start>(
-                        "start", {{"cells", Water::Start::cells}, {"equal-mass", Water::Start::equal_mass}, {"relaxed", Water::Start::relaxed}})
+                    .choice<Water::Start>("start", {{"cells", Water::Start::cells},
+                                                    {"equal-mass", Water::Start::equal_mass},
+                                                    {"relaxed", Water::Start::relaxed}})
                     .otherwise(water.start);
   water.wet_above = section.number("wet_above", "m").at_least(0).otherwise(water.wet_above);
   Value<double> disorder = section.number("disorder");

@@ -1,4 +1,5 @@
-// The pressure of moving water is solved for as closely as its velocities ask for: its course is that of a solution to round-off.
+// The pressure of moving water is solved for as closely as its velocities ask for: its course is that of a
+// solution to round-off.
 #include <catch2/catch.hpp>
 
 #include "tests/support/run/flow.hpp"
@@ -36,9 +37,10 @@ Apart apart(const std::string& scene, std::vector<std::string> overrides, int st
 }  // namespace
 
 TEST_CASE("fpm tolerance: moving water comes out as with the pressure solved to round-off") {
-  // 1e-8 of the root mean square speed may be left in each step; it does not add up. (Disordered: which points of a lattice of vortices
-  // merge hangs on round-off.)
-  const Apart vortices = apart("fpm_taylor_green", {"water.spacing=0.05", "water.disorder=0.1"}, 20), column = apart("fpm_column", {}, 40);
+  // 1e-8 of the root mean square speed may be left in each step; it does not add up. (Disordered: which
+  // points of a lattice of vortices merge hangs on round-off.)
+  const Apart vortices = apart("fpm_taylor_green", {"water.spacing=0.05", "water.disorder=0.1"}, 20),
+              column = apart("fpm_column", {}, 40);
   CAPTURE(vortices.speed, vortices.pressure, column.speed, column.pressure);
   CHECK(vortices.speed <= 1e-7);
   CHECK(vortices.pressure <= 1e-6);

@@ -36,11 +36,14 @@ TEST_CASE("fpm area: too much or too little water comes back to the band in some
     keeper.start(2);
     const double off = 0.04;
     const double left = after(keeper, 2 * (1 + sign * off), 50) / 2 - 1;
-    // A look every ten steps takes 0.4 of what is beyond the band: 0.6^5 of it is left; divergence acts on the area at hand (4 %).
-    CHECK(sign * left == Approx(AreaKeeper::band + std::pow(0.6, 5) * (off - AreaKeeper::band)).epsilon(0.05));
+    // A look every ten steps takes 0.4 of what is beyond the band: 0.6^5 of it is left; divergence acts on
+    // the area at hand (4 %).
+    CHECK(sign * left ==
+          Approx(AreaKeeper::band + std::pow(0.6, 5) * (off - AreaKeeper::band)).epsilon(0.05));
     REQUIRE(keeper.notes().size() == 1);
     CHECK(keeper.notes()[0].find("first at t = 0 s") != std::string::npos);
-    CHECK(keeper.notes()[0].find(sign > 0 ? " 0 % put on" : "0 % of its area was taken off") != std::string::npos);
+    CHECK(keeper.notes()[0].find(sign > 0 ? " 0 % put on" : "0 % of its area was taken off") !=
+          std::string::npos);
   }
 }
 

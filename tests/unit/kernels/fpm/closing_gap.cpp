@@ -1,4 +1,5 @@
-// Two bodies of water that come together: what is between them is air until they touch, however near that makes their surfaces.
+// Two bodies of water that come together: what is between them is air until they touch, however near that
+// makes their surfaces.
 #include <catch2/catch.hpp>
 
 #include "kernels/fpm/cells/area.hpp"
@@ -29,13 +30,15 @@ struct Look {
   VecField<double, 2> open;
   fpm::Voronoi voronoi{fpm::VoronoiRule{}};
   std::vector<Vec<double, 2>> memory;
-  // Away from the slabs' ends, whose points look outwards: surface points on the facing rows, places for new points, area [m2].
+  // Away from the slabs' ends, whose points look outwards: surface points on the facing rows, places for new
+  // points, area [m2].
   int facing = 0, inserted = 0;
   double area = 0;
 
   Look(double gap, const std::vector<Vec<double, 2>>& before) : set(slabs(gap), dx) {
     const int n = set.size();
-    open = {Field<double>("open", static_cast<std::size_t>(n)), Field<double>("open", static_cast<std::size_t>(n))};
+    open = {Field<double>("open", static_cast<std::size_t>(n)),
+            Field<double>("open", static_cast<std::size_t>(n))};
     const auto id = set.fields.integer("id"), surface = set.fields.integer("surface");
     for (int i = 0; i < n && !before.empty(); ++i) put(open, i, before[static_cast<std::size_t>(id(i))]);
     fpm::Cloud cloud = set.cloud();
@@ -56,7 +59,9 @@ struct Look {
 
 }  // namespace
 
-TEST_CASE("fpm gap: two surfaces that approach stay surfaces, and no area or point comes of it, until they are one spacing apart") {
+TEST_CASE(
+    "fpm gap: two surfaces that approach stay surfaces, and no area or point comes of it, until they are one "
+    "spacing apart") {
   std::vector<Vec<double, 2>> memory = Look(4 * dx, {}).memory;
   const Look apart(4 * dx, memory);
   REQUIRE(apart.facing > 15);

@@ -1,4 +1,5 @@
-// The least-squares fits and stencils of FPM: exact for quadratics, of their orders on smooth fields, equal to Eigen's QR.
+// The least-squares fits and stencils of FPM: exact for quadratics, of their orders on smooth fields, equal
+// to Eigen's QR.
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
@@ -17,7 +18,8 @@ using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
 
 constexpr double support = 3.2;  // x dx
 
-// n x n points of the unit square times size, each off its lattice place by up to jitter dx; sorted, listed, with their stencils.
+// n x n points of the unit square times size, each off its lattice place by up to jitter dx; sorted, listed,
+// with their stencils.
 struct Sheet {
   FieldSet fields;
   RowOrder order;
@@ -25,13 +27,17 @@ struct Sheet {
   Stencils<2> stencils;
   double dx;
 
-  Sheet(int n, double size, double jitter, unsigned seed = 5) : order(2, size / n, test::wide(size / n)), dx(size / n) {
+  Sheet(int n, double size, double jitter, unsigned seed = 5)
+      : order(2, size / n, test::wide(size / n)), dx(size / n) {
     auto points = test::lattice(2, {0, n, 0, n}, dx);
     test::Random random(seed);
     for (Point& p : points) p = {p[0] + jitter * dx * random(-1, 1), p[1] + jitter * dx * random(-1, 1)};
     prepare(points);
   }
-  Sheet(const std::vector<Point>& points, double spacing) : order(2, spacing, test::wide(spacing)), dx(spacing) { prepare(points); }
+  Sheet(const std::vector<Point>& points, double spacing)
+      : order(2, spacing, test::wide(spacing)), dx(spacing) {
+    prepare(points);
+  }
 
   void prepare(const std::vector<Point>& points) {
     fields = test::point_fields(2, points);
@@ -72,7 +78,8 @@ Errors errors_on_waves(int n) {
   for (int i = 0; i < sheet.fields.size(); ++i) {
     if (!sheet.inside(i, 0.2)) continue;
     const double a = 3 * sheet.x().x(i) + 1, b = 2 * sheet.x().y(i);
-    g2 += std::pow(g.x(i) - 3 * std::cos(a) * std::cos(b), 2) + std::pow(g.y(i) + 2 * std::sin(a) * std::sin(b), 2);
+    g2 += std::pow(g.x(i) - 3 * std::cos(a) * std::cos(b), 2) +
+          std::pow(g.y(i) + 2 * std::sin(a) * std::sin(b), 2);
     l2 += std::pow(lap(i) + 13 * f(i), 2);
     ++count;
   }
@@ -84,7 +91,8 @@ Vector by_qr(const Sheet& sheet, const Field<double>& f, int i) {
   std::vector<std::array<double, 6>> rows;
   const double h = support * sheet.dx;
   for (int j = 0; j < sheet.fields.size(); ++j) {
-    const double dx = (sheet.x().x(j) - sheet.x().x(i)) / h, dy = (sheet.x().y(j) - sheet.x().y(i)) / h, r2 = dx * dx + dy * dy;
+    const double dx = (sheet.x().x(j) - sheet.x().x(i)) / h, dy = (sheet.x().y(j) - sheet.x().y(i)) / h,
+                 r2 = dx * dx + dy * dy;
     if (j == i || r2 >= 1) continue;
     const double w = std::exp(-3.5 * r2);  // the square root of the weight
     rows.push_back({w * dx, w * dy, w * dx * dx / 2, w * dx * dy, w * dy * dy / 2, w * (f(j) - f(i))});
@@ -116,7 +124,8 @@ double quadratic_deviation(Sheet& sheet) {
   double worst = 0;
   for (int i = 0; i < sheet.fields.size(); ++i) {
     const double a = s * sheet.x().x(i), b = s * sheet.x().y(i);
-    worst = std::max({worst, std::abs(g.x(i) / s - (2 + 1.4 * a - 1.1 * b)) / 3, std::abs(g.y(i) / s - (-3 - 1.1 * a + 4.6 * b)) / 3,
+    worst = std::max({worst, std::abs(g.x(i) / s - (2 + 1.4 * a - 1.1 * b)) / 3,
+                      std::abs(g.y(i) / s - (-3 - 1.1 * a + 4.6 * b)) / 3,
                       std::abs(lap(i) / (s * s) - 6.0) / 6, std::abs(fit(i) - f(i)) / 5});
   }
   return worst;
@@ -129,7 +138,8 @@ TEST_CASE("MLS stencils reproduce quadratics at every point, whatever the size o
   Sheet sheet(40, size, jitter);
   CAPTURE(size, jitter);
   CHECK(sheet.report.poor == 0);
-  CHECK(quadratic_deviation(sheet) < 1e-11);  // normal equations of cond <= 74^2 at corners, and the Laplacian divides by h^2
+  CHECK(quadratic_deviation(sheet) <
+        1e-11);  // normal equations of cond <= 74^2 at corners, and the Laplacian divides by h^2
 }
 
 TEST_CASE("MLS stencils equal a QR of the unscaled problem") {
@@ -175,12 +185,14 @@ TEST_CASE("Few neighbours or neighbours in a line leave derivatives bounded and 
   }
 }
 
-TEST_CASE("Gradients in layers of two rows stay within the slopes that there are, whichever way the layer lies") {
+TEST_CASE(
+    "Gradients in layers of two rows stay within the slopes that there are, whichever way the layer lies") {
   const double angle = GENERATE(0.0, 0.5, 1.2, 1.57), thick = 0.6, c = std::cos(angle), s = std::sin(angle);
   std::vector<Point> places;
   test::Random random(5);
   for (int k = 0; k < 40; ++k) {
-    const double along = 0.5 * k + random(-0.1, 0.1), across = k % 2 == 0 ? 0.0 : thick * (1 + random(-0.1, 0.1));
+    const double along = 0.5 * k + random(-0.1, 0.1),
+                 across = k % 2 == 0 ? 0.0 : thick * (1 + random(-0.1, 0.1));
     places.push_back({c * along - s * across, s * along + c * across});
   }
   Sheet layer(places, 1.0);
@@ -197,12 +209,14 @@ TEST_CASE("FPM lists hold exactly the neighbours within h") {
   const auto& around = sheet.finder.view();
   for (int c = 0; c < around.clusters.size(); ++c)
     around.for_each(c, [&](int, const Terms<Lane, 2>&, const Lane& w) {
-      for (int l = 0; l < around.clusters(c).count; ++l) found[static_cast<std::size_t>(around.clusters(c).first + l)] += lane_of(w, l) > 0;
+      for (int l = 0; l < around.clusters(c).count; ++l)
+        found[static_cast<std::size_t>(around.clusters(c).first + l)] += lane_of(w, l) > 0;
     });
   for (int i = 0; i < sheet.fields.size(); ++i) {
     int near = 0;
     for (int j = 0; j < sheet.fields.size(); ++j)
-      near += j != i && std::hypot(sheet.x().x(j) - sheet.x().x(i), sheet.x().y(j) - sheet.x().y(i)) < support * sheet.dx;
+      near += j != i && std::hypot(sheet.x().x(j) - sheet.x().x(i), sheet.x().y(j) - sheet.x().y(i)) <
+                            support * sheet.dx;
     CHECK(found[static_cast<std::size_t>(i)] == near);
   }
 }
@@ -211,7 +225,9 @@ TEST_CASE("MLS in three dimensions reproduces a quadratic") {
   Moments<double, 3> moments;
   test::Random random(3);
   std::vector<Vec<double, 3>> places(60);
-  const auto f = [](const Vec<double, 3>& s) { return 2 + s.x - s.y * s.z + 0.5 * s.z * s.z - 2 * s.x * s.x; };
+  const auto f = [](const Vec<double, 3>& s) {
+    return 2 + s.x - s.y * s.z + 0.5 * s.z * s.z - 2 * s.x * s.x;
+  };
   for (auto& s : places) {
     s = {random(-0.55, 0.55), random(-0.55, 0.55), random(-0.55, 0.55)};
     moments.add(weight(dot(s, s)), basis(s));
@@ -255,6 +271,7 @@ TEST_CASE("Small symmetric systems are solved as by Eigen, in every lane") {
   const Column<Lane, 6> x = Factored<Lane, 6>(g, {1e-14}).solve(b);
   for (int l = 0; l < lanes; ++l) {
     const Vector exact = reference[l].fullPivLu().solve(right[l]);
-    for (int i = 0; i < 6; ++i) CHECK(lane_of(x[i], l) == Approx(static_cast<double>(exact(i))).epsilon(1e-7));
+    for (int i = 0; i < 6; ++i)
+      CHECK(lane_of(x[i], l) == Approx(static_cast<double>(exact(i))).epsilon(1e-7));
   }
 }

@@ -1,5 +1,5 @@
-// Poisson's equation on jittered points: second order with mixed, pure flux and periodic boundaries, the same at every size, and few
-// iterations of BiCGStab, preconditioned on a mesh.
+// Poisson's equation on jittered points: second order with mixed, pure flux and periodic boundaries, the same
+// at every size, and few iterations of BiCGStab, preconditioned on a mesh.
 #include <catch2/catch.hpp>
 
 #include "kernels/fpm/pressure/elliptic.hpp"
@@ -10,7 +10,6 @@ using namespace freshet::fpm;
 using freshet::Point;
 
 namespace {
-
 
 enum class Edges { mixed, flux, periodic };
 
@@ -24,14 +23,17 @@ struct Square {
   Edges edges;
   double dx, size;
 
-  Square(int n, double side, Edges e, double jitter = 0.3) : order(2, side / n, test::wide(side / n)), edges(e), dx(side / n), size(side) {
+  Square(int n, double side, Edges e, double jitter = 0.3)
+      : order(2, side / n, test::wide(side / n)), edges(e), dx(side / n), size(side) {
     test::Random random(3);
     std::vector<Point> points;
     const int last = e == Edges::periodic ? n : n + 1;
     for (int j = 0; j < last; ++j)
       for (int i = 0; i < last; ++i) {
-        const bool edge_x = e != Edges::periodic && (i == 0 || i == n), edge_y = e != Edges::periodic && (j == 0 || j == n);
-        points.push_back({dx * (i + (edge_x ? 0 : jitter * random(-1, 1))), dx * (j + (edge_y ? 0 : jitter * random(-1, 1)))});
+        const bool edge_x = e != Edges::periodic && (i == 0 || i == n),
+                   edge_y = e != Edges::periodic && (j == 0 || j == n);
+        points.push_back({dx * (i + (edge_x ? 0 : jitter * random(-1, 1))),
+                          dx * (j + (edge_y ? 0 : jitter * random(-1, 1)))});
       }
     if (e == Edges::periodic)
       for (Point& p : points) p = {p[0] + 0.5 * dx, p[1] + 0.5 * dx};
@@ -48,13 +50,15 @@ struct Square {
     for (int i = 0; i < count(); ++i) {
       const double a = x(i) / size, b = y(i) / size;
       const bool left = a == 0, right = a > 1 - 1e-9, bottom = b == 0, top = b > 1 - 1e-9;
-      const bool given = edges == Edges::mixed && (left || top), edge = edges != Edges::periodic && (left || right || bottom || top);
+      const bool given = edges == Edges::mixed && (left || top),
+                 edge = edges != Edges::periodic && (left || right || bottom || top);
       row(i) = given ? row_value : edge ? row_flux : row_equation;
       const double nx = right - left, ny = top - bottom, length = std::max(std::hypot(nx, ny), 1e-300);
       normal.x(i) = nx / length;
       normal.y(i) = ny / length;
     }
-    stencils.find(finder.find(order.rows(), {fields.real("x"), fields.real("y")}, fields.real("h"), count(), period));
+    stencils.find(
+        finder.find(order.rows(), {fields.real("x"), fields.real("y")}, fields.real("h"), count(), period));
     poisson.assemble(stencils.view(), order.rows(), {row, normal});
   }
 
@@ -67,9 +71,11 @@ struct Square {
     double l2;
     PoissonReport report;
   };
-  // Against psi = cos(k x + shift) cos(k y + shift), whose flux through the edges and mean are those of the problem.
+  // Against psi = cos(k x + shift) cos(k y + shift), whose flux through the edges and mean are those of the
+  // problem.
   Result solve() {
-    const double k = (edges == Edges::periodic ? 2 * pi : 2.0) / size, s = edges == Edges::periodic ? 0.3 : 0.5;
+    const double k = (edges == Edges::periodic ? 2 * pi : 2.0) / size,
+                 s = edges == Edges::periodic ? 0.3 : 0.5;
     const auto f = make("f"), g = make("g"), given = make("given"), psi = make("psi"), exact = make("exact");
     double mean = 0;
     for (int i = 0; i < count(); ++i) {
@@ -77,7 +83,8 @@ struct Square {
       exact(i) = given(i) = std::cos(a) * std::cos(b);
       mean += exact(i) / count();
       f(i) = -2 * k * k * exact(i);
-      g(i) = -k * (fields.real("nx")(i) * std::sin(a) * std::cos(b) + fields.real("ny")(i) * std::cos(a) * std::sin(b));
+      g(i) = -k * (fields.real("nx")(i) * std::sin(a) * std::cos(b) +
+                   fields.real("ny")(i) * std::cos(a) * std::sin(b));
       psi(i) = 0;
     }
     Result result{0, poisson.solve({f, g, given}, psi, {})};
@@ -105,7 +112,8 @@ TEST_CASE("Poisson's equation with mixed boundaries converges with order 2 in fe
 
 TEST_CASE("Poisson's equation has the same error in squares of 0.01, 1 and 100 m") {
   const double unit = Square(40, 1.0, Edges::mixed).solve().l2;
-  for (double size : {0.01, 100.0})  // round-off of the two sizes' coordinates, and the solver's tolerance of 1e-8
+  for (double size :
+       {0.01, 100.0})  // round-off of the two sizes' coordinates, and the solver's tolerance of 1e-8
     CHECK(Square(40, size, Edges::mixed).solve().l2 == Approx(unit).epsilon(1e-6));
 }
 
@@ -126,7 +134,8 @@ TEST_CASE("Poisson's equation without a given value: pure flux and periodic squa
 
 TEST_CASE("A linear pressure between walls and a surface is found to the solver's tolerance") {
   Square square(30, 1.0, Edges::mixed, 0.3);
-  const auto f = square.make("f"), g = square.make("g"), given = square.make("given"), psi = square.make("psi");
+  const auto f = square.make("f"), g = square.make("g"), given = square.make("given"),
+             psi = square.make("psi");
   for (int i = 0; i < square.count(); ++i) {
     given(i) = 3 - 2 * square.y(i) + square.x(i);
     f(i) = psi(i) = 0;
@@ -143,7 +152,9 @@ TEST_CASE("Periodic lists hold every neighbour across the sides once") {
   const auto& around = square.finder.view();
   for (int c = 0; c < around.clusters.size(); ++c) {
     Lane found{0.0};
-    around.for_each(c, [&](int, const Terms<Lane, 2>&, const Lane& w) { found += select(Lane(0.0) < w, Lane(1.0), Lane(0.0)); });
+    around.for_each(c, [&](int, const Terms<Lane, 2>&, const Lane& w) {
+      found += select(Lane(0.0) < w, Lane(1.0), Lane(0.0));
+    });
     for (int l = 0; l < around.clusters(c).count; ++l) {
       const int i = around.clusters(c).first + l;
       int near = 0;

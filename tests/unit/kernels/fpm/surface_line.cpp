@@ -9,13 +9,17 @@ using test::FlowPoints;
 
 namespace {
 
-constexpr double dx = 0.1;     // m
+constexpr double dx = 0.1;  // m
 const fpm::VoronoiRule rule;
 
-// Water below the level 1 + slope x for 0 <= x <= 2 in a tank, a lone point above it, a lone one to its right.
+// Water below the level 1 + slope x for 0 <= x <= 2 in a tank, a lone point above it, a lone one to its
+// right.
 struct Tilted {
   FlowPoints set;
-  explicit Tilted(double slope, bool drops = true) : set(points(slope, drops), dx, {{{0, 3}, {0, 0}, {4, 0}, {4, 3}}}) { set.flags(); }
+  explicit Tilted(double slope, bool drops = true)
+      : set(points(slope, drops), dx, {{{0, 3}, {0, 0}, {4, 0}, {4, 3}}}) {
+    set.flags();
+  }
   static std::vector<Point> points(double slope, bool drops) {
     std::vector<Point> all;
     for (int i = 0; i <= 20; ++i)
@@ -23,7 +27,9 @@ struct Tilted {
     if (drops) all.insert(all.end(), {{1.0, 2.5}, {3.5, 1.0}});
     return all;
   }
-  double level(double x) { return fpm::highest_level(set.cloud(), set.fields.integer("surface"), set.size(), rule, x); }
+  double level(double x) {
+    return fpm::highest_level(set.cloud(), set.fields.integer("surface"), set.size(), rule, x);
+  }
   double front() { return fpm::farthest_x(set.cloud(), set.fields.integer("surface"), set.size(), rule); }
 };
 
@@ -31,7 +37,8 @@ struct Tilted {
 
 TEST_CASE("fpm surface line: levels along a slanting surface, on points, between them and on the wall") {
   Tilted water(0.1);
-  for (const double x : {0.0, 0.04, 0.1, 0.77, 1.0, 1.96}) CHECK(water.level(x) == Approx(1 + 0.1 * x).epsilon(1e-12));
+  for (const double x : {0.0, 0.04, 0.1, 0.77, 1.0, 1.96})
+    CHECK(water.level(x) == Approx(1 + 0.1 * x).epsilon(1e-12));
 }
 
 TEST_CASE("fpm surface line: beside the water there is none, and lone points do not count") {

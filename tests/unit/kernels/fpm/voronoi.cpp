@@ -18,14 +18,16 @@ struct Triangle {
 
 // Circumcentre of three points.
 Point centre_of(const Point& a, const Point& b, const Point& c) {
-  const double bx = b[0] - a[0], by = b[1] - a[1], cx = c[0] - a[0], cy = c[1] - a[1], twice = 2 * (bx * cy - by * cx);
+  const double bx = b[0] - a[0], by = b[1] - a[1], cx = c[0] - a[0], cy = c[1] - a[1],
+               twice = 2 * (bx * cy - by * cx);
   const double b2 = bx * bx + by * by, c2 = cx * cx + cy * cy;
   return {a[0] + (cy * b2 - by * c2) / twice, a[1] + (bx * c2 - cx * b2) / twice};
 }
 
 bool is_empty(const FlowPoints& s, const Point& centre, double radius2, std::initializer_list<int> but) {
   for (int k = 0; k < s.size(); ++k)
-    if (std::find(but.begin(), but.end(), k) == but.end() && test::squared(s.at(k), centre) < radius2) return false;
+    if (std::find(but.begin(), but.end(), k) == but.end() && test::squared(s.at(k), centre) < radius2)
+      return false;
   return true;
 }
 
@@ -38,7 +40,8 @@ std::vector<Triangle> delaunay(const FlowPoints& s, double half) {
         const Point a = s.at(i), b = s.at(j), c = s.at(k), m = centre_of(a, b, c);
         const double r2 = test::squared(a, m);
         if (!(r2 < half * half) || !is_empty(s, m, r2, {i, j, k})) continue;
-        all.push_back({0.5 * std::abs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])), std::sqrt(r2)});
+        all.push_back(
+            {0.5 * std::abs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])), std::sqrt(r2)});
       }
   return all;
 }
@@ -88,8 +91,8 @@ double hull_area(std::vector<Point> points) {
   return 0.5 * twice;
 }
 
-// The literal rule: a pair of points both of whose circles of radius r are looked at; one that is empty flags both. A point
-// that no such pair holds is alone in the air.
+// The literal rule: a pair of points both of whose circles of radius r are looked at; one that is empty flags
+// both. A point that no such pair holds is alone in the air.
 std::vector<bool> flags_by_pairs(const FlowPoints& s, double r) {
   std::vector<bool> flagged(static_cast<std::size_t>(s.size())), paired = flagged;
   for (int i = 0; i < s.size(); ++i)
@@ -101,7 +104,8 @@ std::vector<bool> flags_by_pairs(const FlowPoints& s, double r) {
       const double up = std::sqrt((r * r - 0.25 * d2) / d2);
       for (const double side : {up, -up}) {
         const Point m{0.5 * (a[0] + b[0]) - side * (b[1] - a[1]), 0.5 * (a[1] + b[1]) + side * (b[0] - a[0])};
-        if (is_empty(s, m, r * r, {i, j})) flagged[static_cast<std::size_t>(i)] = flagged[static_cast<std::size_t>(j)] = true;
+        if (is_empty(s, m, r * r, {i, j}))
+          flagged[static_cast<std::size_t>(i)] = flagged[static_cast<std::size_t>(j)] = true;
       }
     }
   for (std::size_t i = 0; i < flagged.size(); ++i) flagged[i] = flagged[i] || !paired[i];
@@ -111,7 +115,8 @@ std::vector<bool> flags_by_pairs(const FlowPoints& s, double r) {
 std::vector<Point> square_of(int nx, int ny) { return test::lattice(2, {0, nx, 0, ny}, dx); }
 
 // Flags of points that `counts` selects.
-int flagged_where(const FlowPoints& s, const std::vector<bool>& flags, const std::function<bool(const Point&)>& counts) {
+int flagged_where(const FlowPoints& s, const std::vector<bool>& flags,
+                  const std::function<bool(const Point&)>& counts) {
   int n = 0;
   for (int i = 0; i < s.size(); ++i) n += flags[static_cast<std::size_t>(i)] && counts(s.at(i));
   return n;
@@ -133,7 +138,8 @@ TEST_CASE("voronoi: triangles of any size fill the hull") {
   for (const unsigned seed : {4u, 5u, 6u, 7u}) {
     const auto points = test::random_points(2, 60, 0.5, seed);
     const FlowPoints s(points, dx);
-    CHECK(sum(sorted_areas(from_cells(s, 1e4 * dx))) == Approx(hull_area(points)).epsilon(1e-9));  // slivers on the hull: R up to 1e3 m
+    CHECK(sum(sorted_areas(from_cells(s, 1e4 * dx))) ==
+          Approx(hull_area(points)).epsilon(1e-9));  // slivers on the hull: R up to 1e3 m
   }
 }
 
@@ -150,8 +156,9 @@ TEST_CASE("voronoi: cells of points in a box of walls fill the box") {
 
 TEST_CASE("voronoi: a point is on the surface iff one of the circles through it and another one is empty") {
   const std::vector<std::vector<Point>> clouds = {
-      test::random_points(2, 250, 0.7, 11), test::random_points(2, 60, 0.7, 12), test::jittered(square_of(15, 15), 0.3 * dx, 13),
-      test::jittered(square_of(20, 3), 0.45 * dx, 14), test::jittered(square_of(30, 1), 0.4 * dx, 15)};
+      test::random_points(2, 250, 0.7, 11), test::random_points(2, 60, 0.7, 12),
+      test::jittered(square_of(15, 15), 0.3 * dx, 13), test::jittered(square_of(20, 3), 0.45 * dx, 14),
+      test::jittered(square_of(30, 1), 0.4 * dx, 15)};
   for (const auto& points : clouds)
     for (const double r : {0.9, 1.3, 1.8}) {
       FlowPoints s(points, dx);
@@ -162,8 +169,10 @@ TEST_CASE("voronoi: a point is on the surface iff one of the circles through it 
 }
 
 TEST_CASE("voronoi: lone points, pairs and points on one place are surface") {
-  FlowPoints one({{0, 0}}, dx), two({{0, 0}, {0.5 * dx, 0}}, dx), same({{0, 0}, {0, 0}, {0, 0}}, dx), none({}, dx);
-  for (FlowPoints* s : {&one, &two, &same, &none}) CHECK(flagged_where(*s, s->flags(), [](const Point&) { return true; }) == s->size());
+  FlowPoints one({{0, 0}}, dx), two({{0, 0}, {0.5 * dx, 0}}, dx), same({{0, 0}, {0, 0}, {0, 0}}, dx),
+      none({}, dx);
+  for (FlowPoints* s : {&one, &two, &same, &none})
+    CHECK(flagged_where(*s, s->flags(), [](const Point&) { return true; }) == s->size());
 }
 
 // At r = 1.3 dx (docs/formulas/fpm.md (F25)) none of the bulk is flagged and none of the surface missed, all
@@ -171,7 +180,9 @@ TEST_CASE("voronoi: lone points, pairs and points on one place are surface") {
 TEST_CASE("voronoi: nothing in the bulk is flagged, nothing on the surface is missed") {
   for (const unsigned seed : {21u, 22u, 23u, 24u}) {
     FlowPoints s(test::jittered(square_of(60, 60), 0.3 * dx, seed), dx);
-    const auto inside = [](const Point& p) { return p[0] > 2 * dx && p[0] < 58 * dx && p[1] > 2 * dx && p[1] < 58 * dx; };
+    const auto inside = [](const Point& p) {
+      return p[0] > 2 * dx && p[0] < 58 * dx && p[1] > 2 * dx && p[1] < 58 * dx;
+    };
     CHECK(flagged_where(s, s.flags(), inside) == 0);
   }
 }
@@ -184,7 +195,8 @@ TEST_CASE("voronoi: flat and wavy surfaces, rough by up to a fifth of a spacing,
     auto points = square_of(80, 12);
     test::Random random(31);
     for (Point& p : points) {
-      const double wave = shape.amplitude * dx * std::sin(2 * std::acos(-1.0) * p[0] / (8 * dx)) * p[1] / (12 * dx);
+      const double wave =
+          shape.amplitude * dx * std::sin(2 * std::acos(-1.0) * p[0] / (8 * dx)) * p[1] / (12 * dx);
       p = {p[0], p[1] + wave + random(-shape.rough, shape.rough) * dx};
     }
     FlowPoints s(points, dx);

@@ -1,4 +1,5 @@
-// The multigrid cycle on a box of nodes, open and periodic: against dense solves, symmetric and, around empty nodes too, near the inverse.
+// The multigrid cycle on a box of nodes, open and periodic: against dense solves, symmetric and, around empty
+// nodes too, near the inverse.
 #include "kernels/linear/mesh/box_multigrid.hpp"
 
 #include <catch2/catch.hpp>
@@ -23,7 +24,9 @@ struct Boxed {
   BoxMultigrid multigrid;
   BoxGrid grid;
 
-  Boxed(const BoxGrid& g, const At& mass, const At& dry = [](int, int) { return 0; }) : grid(g) {
+  Boxed(
+      const BoxGrid& g, const At& mass, const At& dry = [](int, int) { return 0; })
+      : grid(g) {
     multigrid.resize(g);
     const BoxLevel& a = multigrid.finest();
     for (int j = 0; j < g.ny; ++j) {
@@ -49,7 +52,8 @@ struct Boxed {
       for (int i = 0; i < grid.nx; ++i) {
         const int at = grid.start(j) + i, here = number(i, j);
         m(here, here) += a.mass(at);
-        for (const auto& [to, k] : {std::pair(number(i + 1, j), a.east(at)), std::pair(number(i, j + 1), a.north(at))})
+        for (const auto& [to, k] :
+             {std::pair(number(i + 1, j), a.east(at)), std::pair(number(i, j + 1), a.north(at))})
           m(here, here) += k, m(to, to) += k, m(here, to) -= k, m(to, here) -= k;
       }
     return m;
@@ -89,8 +93,10 @@ Eigen::VectorXd spectrum(const Eigen::MatrixXd& b, const Eigen::MatrixXd& a) {
 }  // namespace
 
 TEST_CASE("box multigrid: cycles converge to the dense solution on open and periodic boxes of any size") {
-  const BoxGrid grid = GENERATE(BoxGrid{16, 16, false, false}, BoxGrid{17, 12, false, false}, BoxGrid{16, 9, true, false},
-                                BoxGrid{13, 11, true, true}, BoxGrid{2, 7, true, true}, BoxGrid{5, 1, false, false}, BoxGrid{1, 1, false, false});
+  const BoxGrid grid =
+      GENERATE(BoxGrid{16, 16, false, false}, BoxGrid{17, 12, false, false}, BoxGrid{16, 9, true, false},
+               BoxGrid{13, 11, true, true}, BoxGrid{2, 7, true, true}, BoxGrid{5, 1, false, false},
+               BoxGrid{1, 1, false, false});
   const double mass = GENERATE(0.0, 0.2);
   CAPTURE(grid.nx, grid.ny, grid.wrap_x, grid.wrap_y, mass);
   Boxed box(grid, every_third(mass));
@@ -101,7 +107,8 @@ TEST_CASE("box multigrid: cycles converge to the dense solution on open and peri
   if (mass == 0) b.array() -= b.mean();
   const double start = b.norm();
   for (int k = 0; k < 12; ++k) x += box.cycle(b - a * x);
-  CHECK((b - a * x).norm() <= std::pow(0.35, 12) * start + 1e-13);  // a cycle takes two thirds of the residual away at least
+  CHECK((b - a * x).norm() <=
+        std::pow(0.35, 12) * start + 1e-13);  // a cycle takes two thirds of the residual away at least
 }
 
 TEST_CASE("box multigrid: a periodic cycle is symmetric") {
@@ -111,21 +118,24 @@ TEST_CASE("box multigrid: a periodic cycle is symmetric") {
 }
 
 TEST_CASE("box multigrid: the cycle is symmetric and close to the inverse") {
-  const auto [nx, ny] = GENERATE(std::pair(16, 16), std::pair(17, 9), std::pair(31, 1), std::pair(50, 3), std::pair(21, 24), std::pair(1, 1));
+  const auto [nx, ny] = GENERATE(std::pair(16, 16), std::pair(17, 9), std::pair(31, 1), std::pair(50, 3),
+                                 std::pair(21, 24), std::pair(1, 1));
   const double mass = GENERATE(1e-4, 1e-1, 10.0);
   Boxed box(BoxGrid{nx, ny, false, false}, [m = mass](int, int) { return m; });
   const Eigen::MatrixXd b = box.cycles();
   CHECK((b - b.transpose()).norm() < 1e-12 * b.norm());
   const Eigen::VectorXd s = spectrum(b, box.matrix());
-  INFO(nx << " x " << ny << " mass " << mass << ": eigenvalues of B A from " << s.minCoeff() << " to " << s.maxCoeff());
+  INFO(nx << " x " << ny << " mass " << mass << ": eigenvalues of B A from " << s.minCoeff() << " to "
+          << s.maxCoeff());
   CHECK(s.minCoeff() > 0.5);  // condition number of the preconditioned system below 4
   CHECK(s.maxCoeff() < 2.0);
 }
 
 TEST_CASE("box multigrid: the rest is solved around empty nodes") {
   const int nx = 40, ny = 30;
-  Boxed box(BoxGrid{nx, ny, false, false}, [](int, int) { return 1e-2; },
-          [](int i, int j) { return std::abs(i - nx / 3) < nx / 8 && std::abs(j - ny / 2) <= ny / 5; });
+  Boxed box(
+      BoxGrid{nx, ny, false, false}, [](int, int) { return 1e-2; },
+      [](int i, int j) { return std::abs(i - nx / 3) < nx / 8 && std::abs(j - ny / 2) <= ny / 5; });
   const Eigen::MatrixXd b = box.cycles(), full = box.matrix();
   std::vector<int> wet;
   for (int n = 0; n < box.unknowns(); ++n)

@@ -1,4 +1,5 @@
-// Conjugate gradients against Eigen's direct and iterative solvers, and what is reported when they cannot converge.
+// Conjugate gradients against Eigen's direct and iterative solvers, and what is reported when they cannot
+// converge.
 #include "kernels/linear/cg.hpp"
 
 #include <catch2/catch.hpp>
@@ -12,12 +13,12 @@
 #include "tests/support/watch/threads.hpp"
 
 using namespace freshet;
+using Eigen::VectorXd;
 using linear::CgOptions;
 using linear::CgReport;
 using linear::ConjugateGradients;
 using linear::Jacobi;
 using test::RowOperator;
-using Eigen::VectorXd;
 
 namespace {
 
@@ -55,7 +56,9 @@ Solved solve(const RowOperator& a, const VectorXd& b, const CgOptions& options, 
   return {report, test::to_eigen(x, a.size())};
 }
 
-double relative_residual(const RowOperator& a, const VectorXd& b, const VectorXd& x) { return (b - a.matrix() * x).norm() / b.norm(); }
+double relative_residual(const RowOperator& a, const VectorXd& b, const VectorXd& x) {
+  return (b - a.matrix() * x).norm() / b.norm();
+}
 
 }  // namespace
 
@@ -65,7 +68,8 @@ TEST_CASE("cg: agrees with Eigen's Cholesky factorisation on random matrices") {
   const VectorXd b = random_vector(n, 5);
   const Solved s = solve(a, b, {1e-12, 10 * n});
   CHECK(s.report.converged());
-  CHECK(relative_residual(a, b, s.x) < 2e-12);  // the recurrence's residual is within rounding of the true one
+  CHECK(relative_residual(a, b, s.x) <
+        2e-12);  // the recurrence's residual is within rounding of the true one
   const VectorXd exact = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(a.matrix()).solve(b);
   CHECK((s.x - exact).norm() < 1e-9 * exact.norm());  // tolerance x condition number (below 1e3)
 }
@@ -137,7 +141,8 @@ TEST_CASE("cg: says when it cannot converge") {
     ConjugateGradients cg;
     cg.resize(a.size());
     // With a positive preconditioner a negative eigenvalue shows as soon as the Krylov space has met it.
-    const Field<double> x = test::to_field(VectorXd::Zero(a.size())), ones = test::to_field(VectorXd::Ones(a.size()));
+    const Field<double> x = test::to_field(VectorXd::Zero(a.size())),
+                        ones = test::to_field(VectorXd::Ones(a.size()));
     const CgReport report = cg.solve(RowOperator(flipped), Jacobi{ones}, test::to_field(b), x, {1e-10, 5000});
     CHECK(report.outcome == CgReport::Outcome::not_positive);
     CHECK(test::to_eigen(x, a.size()).allFinite());
@@ -156,7 +161,8 @@ TEST_CASE("cg: says when it cannot converge") {
     VectorXd d = VectorXd::Zero(cut.rows());
     for (int k = 0; k < cut.rows(); ++k) d[k] = k == 9 ? 0 : 1 / cut.coeff(k, k);
     const Field<double> x("x", static_cast<size_t>(a.size()));
-    const CgReport report = cg.solve(RowOperator(cut), Jacobi{test::to_field(d)}, test::to_field(b), x, {1e-10, 50});
+    const CgReport report =
+        cg.solve(RowOperator(cut), Jacobi{test::to_field(d)}, test::to_field(b), x, {1e-10, 50});
     CHECK_FALSE(report.converged());
     CHECK(x(9) == 0);
   }
@@ -164,7 +170,8 @@ TEST_CASE("cg: says when it cannot converge") {
 
 TEST_CASE("cg: allocates once, and launches three passes per iteration beside the operator's sum") {
   const RowOperator a(rough_laplacian(30, 30));
-  const Field<double> b = test::to_field(random_vector(a.size(), 8)), d = a.inverse_diagonal(), x = test::to_field(VectorXd::Zero(a.size()));
+  const Field<double> b = test::to_field(random_vector(a.size(), 8)), d = a.inverse_diagonal(),
+                      x = test::to_field(VectorXd::Zero(a.size()));
   ConjugateGradients cg;
   cg.resize(a.size());
   (void)cg.solve(a, Jacobi{d}, b, x, {1e-3, 1});

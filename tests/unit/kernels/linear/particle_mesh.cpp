@@ -5,8 +5,8 @@
 
 #include <Eigen/Dense>
 
-#include "tests/support/watch/recording.hpp"
 #include "tests/support/solve/solve_cost.hpp"
+#include "tests/support/watch/recording.hpp"
 #include "tests/support/watch/threads.hpp"
 
 using namespace freshet;
@@ -46,7 +46,8 @@ TEST_CASE("particle mesh: few iterations at large steps") {
   scene.n = 100;
   scene.courant = GENERATE(5.0, 20.0, 100.0);
   const test::SolveCost cost = test::cost_of(scene, 1e-8);
-  INFO("Courant " << scene.courant << ": Jacobi " << cost.plain.iterations << ", with the mesh " << cost.meshed.iterations);
+  INFO("Courant " << scene.courant << ": Jacobi " << cost.plain.iterations << ", with the mesh "
+                  << cost.meshed.iterations);
   CHECK(cost.plain.converged());
   CHECK(cost.meshed.converged());
   CHECK(cost.meshed.iterations <= (scene.courant < 10 ? 13 : scene.courant < 50 ? 15 : 20));
@@ -56,11 +57,16 @@ TEST_CASE("particle mesh: few iterations around dry land and over slopes") {
   PairScene scene;
   scene.n = 100;
   scene.courant = GENERATE(5.0, 20.0, 100.0);
-  scene.depth = [](double x, double y) { return 1 - 4 * (std::pow(x - 0.5, 2) + std::pow(y - 0.5, 2)) / 0.8; };  // a bowl
+  scene.depth = [](double x, double y) {
+    return 1 - 4 * (std::pow(x - 0.5, 2) + std::pow(y - 0.5, 2)) / 0.8;
+  };  // a bowl
   const test::SolveCost cost = test::cost_of(scene, 1e-8);
-  INFO("Courant " << scene.courant << ": Jacobi " << cost.plain.iterations << ", with the mesh " << cost.meshed.iterations);
+  INFO("Courant " << scene.courant << ": Jacobi " << cost.plain.iterations << ", with the mesh "
+                  << cost.meshed.iterations);
   CHECK(cost.meshed.converged());
-  CHECK(cost.meshed.iterations <= (scene.courant < 10 ? 12 : scene.courant < 50 ? 20 : 32));  // measured before: 10, 18, 30
+  CHECK(cost.meshed.iterations <= (scene.courant < 10   ? 12
+                                   : scene.courant < 50 ? 20
+                                                        : 32));  // measured before: 10, 18, 30
 }
 
 TEST_CASE("particle mesh: allocates nothing once laid") {
@@ -110,14 +116,16 @@ TEST_CASE("particle mesh: a line of particles") {
   const VecField<double, 1> x{fields.real("x")};
   const double k = std::pow(50 * dx, 2);
   const RowOperator a(test::five_points(n, 1, dx, [&](int, int) { return k / dx; }));
-  Field<double> mass("mass", static_cast<size_t>(n)), depth("depth", static_cast<size_t>(n)), b("b", static_cast<size_t>(n)), out("x", static_cast<size_t>(n));
+  Field<double> mass("mass", static_cast<size_t>(n)), depth("depth", static_cast<size_t>(n)),
+      b("b", static_cast<size_t>(n)), out("x", static_cast<size_t>(n));
   for (int i = 0; i < n; ++i) mass(i) = dx, depth(i) = 1, b(i) = dx * std::sin(0.3 * i);
   ParticleMesh<1> mesh;
   mesh.lay(order.rows(), x, n);
   mesh.set(mass, depth, k);
   linear::ConjugateGradients cg;
   cg.resize(n);
-  const CgReport report = cg.solve(a, JacobiPlus<ParticleMesh<1>>{a.inverse_diagonal(), mesh}, b, out, {1e-8, 100});
+  const CgReport report =
+      cg.solve(a, JacobiPlus<ParticleMesh<1>>{a.inverse_diagonal(), mesh}, b, out, {1e-8, 100});
   CHECK(report.converged());
   CHECK(report.iterations <= 15);
 }

@@ -1,4 +1,5 @@
-// The mesh preconditioner of scattered points: its symmetry, given points, free constants, and the same bits with any number of threads.
+// The mesh preconditioner of scattered points: its symmetry, given points, free constants, and the same bits
+// with any number of threads.
 #include "kernels/linear/mesh/point_mesh.hpp"
 
 #include <catch2/catch.hpp>
@@ -21,7 +22,8 @@ struct Meshed {
   Meshed(int n, bool periodic) : order(2, 1.0 / n, {0, 1, 0, 1}) {
     test::Random random(5);
     std::vector<Point> points;
-    for (int k = 0; k < n * n; ++k) points.push_back({(k % n + 0.5 + 0.4 * random(-1, 1)) / n, (k / n + 0.5 + 0.4 * random(-1, 1)) / n});
+    for (int k = 0; k < n * n; ++k)
+      points.push_back({(k % n + 0.5 + 0.4 * random(-1, 1)) / n, (k / n + 0.5 + 0.4 * random(-1, 1)) / n});
     fields = test::point_fields(2, points);
     order.sort(fields);
     weights = {make("area"), make("weight"), make("held"), periodic};
@@ -46,7 +48,9 @@ double weighted(const Meshed& m, const Field<double>& a, const Field<double>& b)
 
 }  // namespace
 
-TEST_CASE("point mesh: it adds a correction that is symmetric in the weights, nothing to given points and to constants that are free") {
+TEST_CASE(
+    "point mesh: it adds a correction that is symmetric in the weights, nothing to given points and to "
+    "constants that are free") {
   const bool periodic = GENERATE(false, true);
   Meshed m(21, periodic);
   const auto a = m.make("a"), b = m.make("b"), za = m.make("za"), zb = m.make("zb"), one = m.make("one");
@@ -65,7 +69,8 @@ TEST_CASE("point mesh: it adds a correction that is symmetric in the weights, no
   correction(b, zb);
   const double there = weighted(m, a, zb), back = weighted(m, b, za);
   // The mean is taken off before the mesh, not behind it.
-  const double mean_a = weighted(m, a, one) / weighted(m, one, one), mean_b = weighted(m, b, one) / weighted(m, one, one);
+  const double mean_a = weighted(m, a, one) / weighted(m, one, one),
+               mean_b = weighted(m, b, one) / weighted(m, one, one);
   const double off = periodic ? mean_a * weighted(m, one, zb) - mean_b * weighted(m, one, za) : 0;
   CHECK(there - back - off == Approx(0).margin(1e-10 * (std::abs(there) + 1)));
   for (int i = 0; i < m.count(); ++i)

@@ -32,7 +32,8 @@ struct Bicubic {
   double derivative(int p, int q, double x, double y) const {
     double sum = 0;
     for (int i = p; i < 4; ++i)
-      for (int j = q; j < 4; ++j) sum += c[i][j] * falling(i, p) * falling(j, q) * std::pow(x, i - p) * std::pow(y, j - q);
+      for (int j = q; j < 4; ++j)
+        sum += c[i][j] * falling(i, p) * falling(j, q) * std::pow(x, i - p) * std::pow(y, j - q);
     return sum;
   }
   static double falling(int n, int k) { return k == 0 ? 1 : n * falling(n - 1, k - 1); }
@@ -40,8 +41,10 @@ struct Bicubic {
 
 double worst(const BedPoint<double, 2>& p, const Bicubic& b, double x, double y) {
   return std::max({std::abs(p.b - b.derivative(0, 0, x, y)), std::abs(p.slope.x - b.derivative(1, 0, x, y)),
-                   std::abs(p.slope.y - b.derivative(0, 1, x, y)), std::abs(p.curvature.xx - b.derivative(2, 0, x, y)),
-                   std::abs(p.curvature.xy - b.derivative(1, 1, x, y)), std::abs(p.curvature.yy - b.derivative(0, 2, x, y))});
+                   std::abs(p.slope.y - b.derivative(0, 1, x, y)),
+                   std::abs(p.curvature.xx - b.derivative(2, 0, x, y)),
+                   std::abs(p.curvature.xy - b.derivative(1, 1, x, y)),
+                   std::abs(p.curvature.yy - b.derivative(0, 2, x, y))});
 }
 
 }  // namespace
@@ -50,7 +53,8 @@ TEST_CASE("bed: cubic polynomials come back with slope and curvature, in one dim
   const auto bed = spline<1>([](double x, double) { return 1 - 2 * x + 0.5 * x * x + 0.3 * x * x * x; });
   test::Random random(1);
   for (int k = 0; k < 100; ++k) {
-    // The ends' condition (below) misses a curvature of 15 1/m; 18 nodes further in 0.268^18 = 5e-11 of it is left.
+    // The ends' condition (below) misses a curvature of 15 1/m; 18 nodes further in 0.268^18 = 5e-11 of it is
+    // left.
     const double x = random(-3.5, 3.5);
     const auto p = bed.at(at_1d(x));
     CHECK(p.b == Approx(1 - 2 * x + 0.5 * x * x + 0.3 * x * x * x).margin(1e-9));
@@ -69,8 +73,9 @@ TEST_CASE("bed: bicubic polynomials come back with slope and curvature, in two d
     inside = std::max(inside, worst(bed.at(at_2d(x, y)), polynomial, x, y));
     rim = std::max(rim, worst(bed.at(at_2d(along, high)), polynomial, along, high));
   }
-  // The ends' condition (no second difference of the coefficients there) misses b'' = 6 x 8 x 8^3 = 2.5e4 1/m in curvature,
-  // and the miss falls by 0.268 from node to node: 1.4e-7 of it after 12 nodes, 3.6e-12 after 20.
+  // The ends' condition (no second difference of the coefficients there) misses b'' = 6 x 8 x 8^3 = 2.5e4 1/m
+  // in curvature, and the miss falls by 0.268 from node to node: 1.4e-7 of it after 12 nodes, 3.6e-12
+  // after 20.
   CHECK(inside < 1e-7);
   CHECK(rim < 4e-3);
 }
@@ -111,9 +116,10 @@ TEST_CASE("bed: slope and curvature are the derivatives of the level between the
   double slope = 0, curvature = 0;
   for (int k = 0; k < 50; ++k) {
     const double x = -2 + 0.083 * k, y = 1.1 - 0.047 * k;
-    const auto p = bed.at(at_2d(x, y)), east = bed.at(at_2d(x + s, y)), west = bed.at(at_2d(x - s, y)), north = bed.at(at_2d(x, y + s)),
-               south = bed.at(at_2d(x, y - s));
-    slope = std::max({slope, std::abs(p.slope.x - (east.b - west.b) / (2 * s)), std::abs(p.slope.y - (north.b - south.b) / (2 * s))});
+    const auto p = bed.at(at_2d(x, y)), east = bed.at(at_2d(x + s, y)), west = bed.at(at_2d(x - s, y)),
+               north = bed.at(at_2d(x, y + s)), south = bed.at(at_2d(x, y - s));
+    slope = std::max({slope, std::abs(p.slope.x - (east.b - west.b) / (2 * s)),
+                      std::abs(p.slope.y - (north.b - south.b) / (2 * s))});
     curvature = std::max({curvature, std::abs(p.curvature.xx - (east.slope.x - west.slope.x) / (2 * s)),
                           std::abs(p.curvature.xy - (north.slope.x - south.slope.x) / (2 * s)),
                           std::abs(p.curvature.yy - (north.slope.y - south.slope.y) / (2 * s))});
@@ -124,15 +130,16 @@ TEST_CASE("bed: slope and curvature are the derivatives of the level between the
 
 TEST_CASE("bed: raising the datum by 100 m changes the level alone") {
   const auto rough = [](double x, double y) { return 0.3 * std::sin(2 * x) * std::cos(3 * y); };
-  const auto bed = spline<2>(rough, 0.4), raised = spline<2>([&](double x, double y) { return 100 + rough(x, y); }, 0.4);
+  const auto bed = spline<2>(rough, 0.4),
+             raised = spline<2>([&](double x, double y) { return 100 + rough(x, y); }, 0.4);
   test::Random random(6);
   for (int k = 0; k < 100; ++k) {
     const Vec<double, 2> x = at_2d(random(low, high), random(low, high));
     const auto p = bed.at(x), q = raised.at(x);
-    CHECK(q.b - p.b == Approx(100).margin(1e-12));  // a hundred metres round by 1.4e-14, some ten times
-    CHECK(q.slope.x == Approx(p.slope.x).margin(1e-12));             // 1.4e-14 / dx, some ten times
+    CHECK(q.b - p.b == Approx(100).margin(1e-12));        // a hundred metres round by 1.4e-14, some ten times
+    CHECK(q.slope.x == Approx(p.slope.x).margin(1e-12));  // 1.4e-14 / dx, some ten times
     CHECK(q.slope.y == Approx(p.slope.y).margin(1e-12));
-    CHECK(q.curvature.xx == Approx(p.curvature.xx).margin(1e-11));   // 1.4e-14 / dx^2, likewise
+    CHECK(q.curvature.xx == Approx(p.curvature.xx).margin(1e-11));  // 1.4e-14 / dx^2, likewise
     CHECK(q.curvature.xy == Approx(p.curvature.xy).margin(1e-11));
   }
 }
@@ -143,7 +150,8 @@ struct Moments {
   double mass = 0, mean = 0, variance = 0;
 };
 
-// Of what a spike of 1 m at the node x = 1, y = -0.5 becomes, over the nodes along x (or y) through all others.
+// Of what a spike of 1 m at the node x = 1, y = -0.5 becomes, over the nodes along x (or y) through all
+// others.
 Moments spike_response(int dimension, double filter, bool along_y) {
   const auto spike = [=](double x, double y) {
     return std::abs(x - 1) < 1e-9 && (dimension == 1 || std::abs(y + 0.5) < 1e-9) ? 1.0 : 0.0;
@@ -166,9 +174,11 @@ Moments spike_response(int dimension, double filter, bool along_y) {
 TEST_CASE("bed: the filter has the promised standard deviation, keeps volumes and moves nothing") {
   const double filter = GENERATE(0.1, 0.25, 0.3, 0.6);  // m: 0.4 to 2.4 spacings
   CAPTURE(filter);
-  for (const auto& [dimension, along_y] : {std::make_pair(1, false), std::make_pair(2, false), std::make_pair(2, true)}) {
+  for (const auto& [dimension, along_y] :
+       {std::make_pair(1, false), std::make_pair(2, false), std::make_pair(2, true)}) {
     const Moments m = spike_response(dimension, filter, along_y);
-    // The spline passes through the filtered levels, and these have the variance exactly: round-off of 1600 nodes.
+    // The spline passes through the filtered levels, and these have the variance exactly: round-off of 1600
+    // nodes.
     CHECK(m.mass == Approx(1).epsilon(1e-11));
     CHECK(std::abs(m.mean) < 1e-11);
     CHECK(std::sqrt(m.variance) == Approx(filter).epsilon(1e-10));
@@ -199,12 +209,14 @@ TEST_CASE("bed: level and slope without the curvature are those with it") {
   for (int k = 0; k < 200; ++k) {
     const double x = random(low, high), y = random(low, high);
     const auto full = bed.at(at_2d(x, y)), part = bed.sloped_at(at_2d(x, y));
-    worst = std::max({worst, std::abs(full.b - part.b), std::abs(full.slope.x - part.slope.x), std::abs(full.slope.y - part.slope.y)});
+    worst = std::max({worst, std::abs(full.b - part.b), std::abs(full.slope.x - part.slope.x),
+                      std::abs(full.slope.y - part.slope.y)});
     worst = std::max(worst, std::abs(line.at(at_1d(x)).slope.x - line.sloped_at(at_1d(x)).slope.x));
     CHECK((part.curvature.xx == 0 && part.curvature.xy == 0 && part.curvature.yy == 0));
     steepest = std::max(steepest, std::sqrt(dot(full.slope, full.slope)));
   }
   CHECK(worst < 1e-14);  // the same sums, perhaps in another order
   CHECK(bed.steepest() >= steepest);
-  CHECK(bed.steepest() < 1.2 * std::hypot(3, 2));  // the largest slopes along each axis, 3 and 2, met at different places
+  CHECK(bed.steepest() <
+        1.2 * std::hypot(3, 2));  // the largest slopes along each axis, 3 and 2, met at different places
 }

@@ -11,8 +11,8 @@ using namespace freshet;
 
 namespace {
 
-constexpr double g = 9.81;                // m/s2
-const OpenStrip flat{g, 0, 1, 0.5};       // bed 0, still water 1 m deep, half a share
+constexpr double g = 9.81;                 // m/s2
+const OpenStrip flat{g, 0, 1, 0.5};        // bed 0, still water 1 m deep, half a share
 const OpenStrip raised{g, 0.4, 0.6, 0.5};  // the same over a bed at 0.4 m
 
 double c(double depth) { return std::sqrt(g * depth); }
@@ -70,7 +70,8 @@ TEST_CASE("an imposed velocity beyond the critical one comes with its critical d
 
 TEST_CASE("no velocity and no discharge are walls, before dry land and before a bore") {
   for (const double inward : {0.3, 0.0, -0.5, -6.0})
-    for (const ExteriorState& s : {ImposedVelocity{0}({1, inward}, flat), ImposedDischarge{0, false}({1, inward}, flat)}) {
+    for (const ExteriorState& s :
+         {ImposedVelocity{0}({1, inward}, flat), ImposedDischarge{0, false}({1, inward}, flat)}) {
       CHECK(s.closed);
       CHECK(s.inward == 0);
       CHECK(leaving(s) == Approx(leaving(1, inward)));
@@ -108,8 +109,9 @@ TEST_CASE("a withdrawal takes what is asked, at most what critical flow carries"
 
 TEST_CASE("what leaves supercritically is copied by every kind that does not push inwards") {
   const InnerState inner{0.2, -3};
-  for (const OpenLaw law : {OpenLaw{ImposedLevel{1}}, OpenLaw{IncomingWave{1}}, OpenLaw{ImposedVelocity{-0.1}},
-                            OpenLaw{ImposedDischarge{-1, true}}, OpenLaw{ImposedState{1, false, 0.1}}, OpenLaw{Transmissive{}}}) {
+  for (const OpenLaw law :
+       {OpenLaw{ImposedLevel{1}}, OpenLaw{IncomingWave{1}}, OpenLaw{ImposedVelocity{-0.1}},
+        OpenLaw{ImposedDischarge{-1, true}}, OpenLaw{ImposedState{1, false, 0.1}}, OpenLaw{Transmissive{}}}) {
     const ExteriorState s = exterior_state(law, inner, flat);
     CAPTURE(law.index());
     CHECK(s.depth == 0.2);
@@ -130,7 +132,8 @@ TEST_CASE("an imposed supercritical state enters whole, still water outside pour
   const ExteriorState fast = ImposedState{0.1, true, 4}({0.3, 1}, flat);
   CHECK(fast.depth == Approx(0.1));
   CHECK(fast.inward == 4);
-  const ExteriorState dam = ImposedState{1, true, 0}({}, flat);  // Ritter: depth 4/9, Froude number 1 at the dam
+  const ExteriorState dam =
+      ImposedState{1, true, 0}({}, flat);  // Ritter: depth 4/9, Froude number 1 at the dam
   CHECK(dam.depth == Approx(4.0 / 9));
   CHECK(froude(dam) == Approx(1));
 }
@@ -143,7 +146,8 @@ TEST_CASE("waves enter by their invariant and leave by theirs") {
   const ExteriorState wave = IncomingWave{1}({0.7, outgoing}, raised);
   CHECK(wave.depth == Approx(0.7));
   CHECK(wave.inward == Approx(outgoing));
-  const ExteriorState against = ImposedState{1, false, 0}({0.7, outgoing}, raised);  // transmissive with a level
+  const ExteriorState against =
+      ImposedState{1, false, 0}({0.7, outgoing}, raised);  // transmissive with a level
   CHECK(against.depth == Approx(0.7));
   CHECK(against.inward == Approx(outgoing));
 }
@@ -154,8 +158,9 @@ TEST_CASE("no kind that imposes one value makes supercritical inflow or a negati
   for (int n = 0; n < 2000; ++n) {
     const InnerState inner{depth(random), speed(random)};
     const double imposed = value(random);
-    for (const OpenLaw law : {OpenLaw{ImposedLevel{imposed}}, OpenLaw{IncomingWave{imposed}}, OpenLaw{ImposedVelocity{imposed}},
-                              OpenLaw{ImposedDischarge{imposed, true}}, OpenLaw{ImposedState{imposed, false, 0}}}) {
+    for (const OpenLaw law :
+         {OpenLaw{ImposedLevel{imposed}}, OpenLaw{IncomingWave{imposed}}, OpenLaw{ImposedVelocity{imposed}},
+          OpenLaw{ImposedDischarge{imposed, true}}, OpenLaw{ImposedState{imposed, false, 0}}}) {
       const ExteriorState s = exterior_state(law, inner, flat);
       CAPTURE(law.index(), inner.depth, inner.inward, imposed);
       REQUIRE(s.depth >= 0);
@@ -166,7 +171,8 @@ TEST_CASE("no kind that imposes one value makes supercritical inflow or a negati
 
 TEST_CASE("a discharge is shared by conveyance under the mean level, or by width") {
   const std::vector<Portion> rows{{1.0, 0.0, 2, true}, {1.2, 0.6, 1, true}, {9.0, 2.0, 1, false}};
-  const double level = (2 * 1.0 + 1 * 1.2) / 3, first = std::pow(level, 5.0 / 3), second = std::pow(level - 0.6, 5.0 / 3);
+  const double level = (2 * 1.0 + 1 * 1.2) / 3, first = std::pow(level, 5.0 / 3),
+               second = std::pow(level - 0.6, 5.0 / 3);
   const std::vector<double> share = shares(rows, false);
   CHECK(2 * share[0] + share[1] + share[2] == Approx(1));
   CHECK(share[0] / share[1] == Approx(first / second));

@@ -34,11 +34,13 @@ double across(double a, double h) {
 
 TEST_CASE("a gauge reads the water's depth within it and at its walls, and little of it beyond a front") {
   const auto d = depths({{0.5, 0.5}, {0.5, 0}, {0, 0}, {0.98, 0.5}, {1.06, 0.5}, {1.08, 0.5}, {1.2, 0.5}});
-  // The density at t = 0 is the summed one: within 1 % of the lattice's depth, half of it on the edge of the water.
+  // The density at t = 0 is the summed one: within 1 % of the lattice's depth, half of it on the edge of the
+  // water.
   for (const int inside : {0, 1, 2}) CHECK(d[inside] == Approx(1).epsilon(0.01));
   CHECK(d[3] > 0.5);
-  // One h beyond the edge the mean over the particles would still be above 0.5 m: what counts is the plain sum over a quarter.
-  // The particles on the edge lack neighbours: their density is between 0.6 and 1, their h up to 1.3 times the others'.
+  // One h beyond the edge the mean over the particles would still be above 0.5 m: what counts is the plain
+  // sum over a quarter. The particles on the edge lack neighbours: their density is between 0.6 and 1, their
+  // h up to 1.3 times the others'.
   CHECK(d[4] >= 4 * across(0.06, 0.06));
   CHECK(d[4] <= 4 * across(0.06, 1.3 * 0.06));
   CHECK(d[5] < d[4]);

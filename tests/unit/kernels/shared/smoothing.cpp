@@ -1,6 +1,6 @@
 // The smoothing kernels: norm, slope, support.
-#include "kernels/choice.hpp"
 #include "kernels/smoothing/smoothing.hpp"
+#include "kernels/choice.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -10,8 +10,9 @@ using namespace freshet;
 
 namespace {
 
-// Integral of w over the line or the plane in units of h, by Simpson's rule between the joints of the pieces: exact for the
-// cubic pieces in 1-D, error (1/1000)^4 = 1e-12 of the largest fourth derivative in 2-D (pi q w is of fourth order).
+// Integral of w over the line or the plane in units of h, by Simpson's rule between the joints of the pieces:
+// exact for the cubic pieces in 1-D, error (1/1000)^4 = 1e-12 of the largest fourth derivative in 2-D (pi q w
+// is of fourth order).
 template <int D>
 double norm() {
   constexpr int n = 2000;
@@ -117,7 +118,8 @@ double lattice_excess(const AnyKernel<D>& kernel, double eta) {
   double sum = 0;
   for (int i = -12; i <= 12; ++i)
     for (int j = D == 1 ? 0 : -12; j <= (D == 1 ? 0 : 12); ++j)
-      sum += std::visit([&](const auto& k) { return k.at(std::hypot(i, j) / eta).w; }, kernel) / (D == 1 ? eta : eta * eta);
+      sum += std::visit([&](const auto& k) { return k.at(std::hypot(i, j) / eta).w; }, kernel) /
+             (D == 1 ? eta : eta * eta);
   return sum - 1;
 }
 
@@ -126,12 +128,13 @@ double lattice_excess(const AnyKernel<D>& kernel, double eta) {
 TEST_CASE("smoothing: every kernel integrates to one and slopes as its derivative") {
   for (const KernelChoice& choice : alternatives<KernelChoice>()) {
     CAPTURE(name_of(choice));
-    // The Gaussian is cut at 3: erfc(3) = 2.2e-5 is missing in 1-D, exp(-9) = 1.23e-4 in 2-D. In both the cut halves one end of
-    // Simpson's rule: 1e-3/3 of a value of 1e-4.
+    // The Gaussian is cut at 3: erfc(3) = 2.2e-5 is missing in 1-D, exp(-9) = 1.23e-4 in 2-D. In both the cut
+    // halves one end of Simpson's rule: 1e-3/3 of a value of 1e-4.
     const double cut = std::holds_alternative<kernel::Gaussian>(choice) ? 1 : 0;
     CHECK(general_norm<1>(choice) == Approx(1 - cut * std::erfc(3.0)).epsilon(cut > 0 ? 1e-6 : 1e-9));
     CHECK(general_norm<2>(choice) == Approx(1 - cut * std::exp(-9.0)).epsilon(cut > 0 ? 1e-6 : 1e-9));
-    CHECK(general_slope_error<1>(choice) < 1e-9);  // s^2/6 of the third derivative with s = 1e-5, and rounding 1e-16/s
+    CHECK(general_slope_error<1>(choice) <
+          1e-9);  // s^2/6 of the third derivative with s = 1e-5, and rounding 1e-16/s
     CHECK(general_slope_error<2>(choice) < 1e-9);
   }
 }
@@ -146,8 +149,10 @@ TEST_CASE("smoothing: the cubic spline as data is the cubic spline") {
 
 TEST_CASE("smoothing: lattice bias as measured, and none with the correction") {
   // docs/formulas/swe.md (S6); half a unit of the last digit.
-  CHECK(lattice_excess<2>(make_kernel<2>(kernel::Wendland{}, 1.2, false), 1.2) == Approx(1.8e-2).margin(0.5e-3));
-  CHECK(lattice_excess<2>(make_kernel<2>(kernel::Wendland{}, 2.0, false), 2.0) == Approx(1.2e-3).margin(0.5e-4));
+  CHECK(lattice_excess<2>(make_kernel<2>(kernel::Wendland{}, 1.2, false), 1.2) ==
+        Approx(1.8e-2).margin(0.5e-3));
+  CHECK(lattice_excess<2>(make_kernel<2>(kernel::Wendland{}, 2.0, false), 2.0) ==
+        Approx(1.2e-3).margin(0.5e-4));
   CHECK(std::abs(lattice_excess<2>(make_kernel<2>(kernel::Quintic{}, 1.1, false), 1.1)) <= 1.4e-4);
   for (const KernelChoice& choice : alternatives<KernelChoice>()) {
     CHECK(std::abs(lattice_excess<1>(make_kernel<1>(choice, 1.2, true), 1.2)) < 1e-13);

@@ -17,7 +17,8 @@ struct Setting {
   KernelChoice kernel = kernel::Cubic{};
 };
 
-// A basin of 16 x 16 cells, its rim held unless there are walls, under waves; deep, or with a bed that stands out of the water.
+// A basin of 16 x 16 cells, its rim held unless there are walls, under waves; deep, or with a bed that stands
+// out of the water.
 struct Basin {
   FieldSet fields;
   RowOrder order{2, dx, test::wide(dx)};
@@ -39,19 +40,24 @@ struct Basin {
     }
     fields = test::point_fields(2, points);
     const Field<int> kind = fields.integer("kind", "1", Carry::sort);
-    for (int i = 0; i < fields.size(); ++i) kind(i) = held[static_cast<std::size_t>(i)], fields.real("h")(i) = smoothing * dx;
+    for (int i = 0; i < fields.size(); ++i)
+      kind(i) = held[static_cast<std::size_t>(i)], fields.real("h")(i) = smoothing * dx;
     order.sort(fields);
     const double support = std::visit([](const auto& k) { return k.support; }, kernel);
     order.measure_reach(fields, fields.real("h"), support);
-    sisph::GeometryRequest<2> request{order.rows(), fields.vector<2>("x", "y"), fields.real("h"), kind, dx, dx * dx};
+    sisph::GeometryRequest<2> request{order.rows(), fields.vector<2>("x", "y"), fields.real("h"), kind, dx,
+                                      dx * dx};
     const double end = cells * dx;
-    if (setting.walls) request.walls = sisph::MirrorWalls<2>({{{0, 0}, {end, 0}, {end, end}, {0, end}, {0, 0}}}, 0);
+    if (setting.walls)
+      request.walls = sisph::MirrorWalls<2>({{{0, 0}, {end, 0}, {end, end}, {0, end}, {0, 0}}}, 0);
     g = sisph::measure_geometry<2>(fields.size(), kernel, request);
     closure = sisph::close_areas(g);
     fill(setting, random);
   }
 
-  Field<double> scratch() const { return Field<double>("scratch", static_cast<std::size_t>(g.images.slots()) + lanes); }
+  Field<double> scratch() const {
+    return Field<double>("scratch", static_cast<std::size_t>(g.images.slots()) + lanes);
+  }
   void fill(const Setting& setting, test::Random& random) {
     water = {scratch(), scratch(), {scratch(), scratch()}};
     before = {scratch(), scratch()};
@@ -79,12 +85,14 @@ struct Basin {
 };
 
 // Every a_ij of the rows that are solved for, and the product with a vector of random values.
-std::pair<std::vector<double>, std::vector<double>> matrix(const Basin& basin, const sisph::FreeSurface<2>& surface) {
+std::pair<std::vector<double>, std::vector<double>> matrix(const Basin& basin,
+                                                           const sisph::FreeSurface<2>& surface) {
   std::vector<double> entries, sums;
   const Field<double> x = basin.scratch();
   test::Random random(5);
   for (int i = 0; i < basin.fields.size(); ++i) x(i) = random(-1, 1);
-  std::visit([&](const auto& a) {
+  std::visit(
+      [&](const auto& a) {
     for (int k = 0; k < basin.g.slices.count; ++k) {
       const int s = basin.g.slices(k), count = basin.g.pairs(s).count;
       a.for_each(basin.g.pairs, s, [&](int, PairIndex, Lane value) {
@@ -93,7 +101,8 @@ std::pair<std::vector<double>, std::vector<double>> matrix(const Basin& basin, c
       const Lane sum = a.weighted_sum(basin.g.pairs, s, x);
       for (int l = 0; l < count; ++l) sums.push_back(lane_of(sum, l));
     }
-  }, surface.pairs());
+      },
+      surface.pairs());
   return {entries, sums};
 }
 
@@ -135,6 +144,7 @@ TEST_CASE("sisph coefficients: the same beside walls, with friction, with dry is
 }
 
 TEST_CASE("sisph coefficients: the same for every kernel") {
-  const KernelChoice kernel = GENERATE(as<KernelChoice>{}, kernel::Quartic{}, kernel::Quintic{}, kernel::Gaussian{}, kernel::Wendland{});
+  const KernelChoice kernel = GENERATE(as<KernelChoice>{}, kernel::Quartic{}, kernel::Quintic{},
+                                       kernel::Gaussian{}, kernel::Wendland{});
   compare({0.2, true, false, false, kernel});
 }

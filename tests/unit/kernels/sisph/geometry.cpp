@@ -1,4 +1,5 @@
-// Pair geometry of SISPH: gradients exact for linear fields, areas symmetric and closed, depths between particles.
+// Pair geometry of SISPH: gradients exact for linear fields, areas symmetric and closed, depths between
+// particles.
 #include <catch2/catch.hpp>
 
 #include <map>
@@ -32,14 +33,17 @@ struct Block {
     }
     fields = test::point_fields(D, points);
     const Field<int> kind = fields.integer("kind", "1", Carry::sort);
-    for (int i = 0; i < fields.size(); ++i) kind(i) = held[static_cast<std::size_t>(i)], fields.real("h")(i) = smoothing * dx;
+    for (int i = 0; i < fields.size(); ++i)
+      kind(i) = held[static_cast<std::size_t>(i)], fields.real("h")(i) = smoothing * dx;
     order.sort(fields);
     order.measure_reach(fields, fields.real("h"), 2.0);
     g = sisph::measure_geometry<D>(fields.size(), make_kernel<D>(kernel::Cubic{}, smoothing, false),
                                    {order.rows(), fields.vector<D>("x", "y"), fields.real("h"),
                                     fields.integer("kind"), dx, D == 2 ? dx * dx : dx});
   }
-  Field<double> scratch() const { return Field<double>("scratch", static_cast<std::size_t>(fields.size()) + lanes); }
+  Field<double> scratch() const {
+    return Field<double>("scratch", static_cast<std::size_t>(fields.size()) + lanes);
+  }
   template <class Visit>  // visit(i, j, entry and lane of the pair)
   void for_each_pair(const Visit& visit) const {
     for (int s = 0; s < g.pairs.slices(); ++s)
@@ -54,7 +58,9 @@ struct Block {
 // Largest |sum_j A_ij n_ij| of free particles, over dx.
 double openness(const Block<2>& b) {
   std::map<int, Vec<double, 2>> sum;
-  b.for_each_pair([&](int i, int, std::size_t k) { sum[i] += Vec<double, 2>{b.g.area(k) * b.g.n.x(k), b.g.area(k) * b.g.n.y(k)}; });
+  b.for_each_pair([&](int i, int, std::size_t k) {
+    sum[i] += Vec<double, 2>{b.g.area(k) * b.g.n.x(k), b.g.area(k) * b.g.n.y(k)};
+  });
   double most = 0;
   for (const auto& [i, a] : sum)
     if (b.g.free(i) > 0.5) most = std::max(most, std::sqrt(dot(a, a)) / dx);
@@ -101,12 +107,15 @@ TEST_CASE("sisph: pair areas are symmetric to the bit and normals opposite", "[s
   long wrong = 0;
   for (const auto& [pair, value] : seen) {
     const auto other = seen.find({pair.second, pair.first});
-    wrong += other == seen.end() || other->second[0] != value[0] || other->second[1] != -value[1] || other->second[2] != -value[2];
+    wrong += other == seen.end() || other->second[0] != value[0] || other->second[1] != -value[1] ||
+             other->second[2] != -value[2];
   }
   CHECK(wrong == 0);
 }
 
-TEST_CASE("sisph: the closure makes the areas of disordered particles add to nothing and leaves a lattice alone", "[sisph]") {
+TEST_CASE(
+    "sisph: the closure makes the areas of disordered particles add to nothing and leaves a lattice alone",
+    "[sisph]") {
   const Block<2> lattice(0), disorder(0.2, 30);
   CHECK(openness(lattice) < 1e-12);
   CHECK(sisph::close_areas(lattice.g).iterations == 0);
@@ -135,12 +144,14 @@ TEST_CASE("sisph: areas on a lattice give the divergence and the Laplacian of th
 }
 
 TEST_CASE("sisph: the depth between particles", "[sisph]") {
-  const auto face = [](double hi, double hj, double bi, double bj) { return sisph::face_depth<true>(hi, hj, bi, bj); };
+  const auto face = [](double hi, double hj, double bi, double bj) {
+    return sisph::face_depth<true>(hi, hj, bi, bj);
+  };
   CHECK(face(1, 2, 0, 0) == 1.5);
   CHECK(face(1, 0, 0, 0.4) == Approx(0.6));  // over a dry step: what stands above it
   CHECK(face(1, 0, 0, 1.0) == 0);            // a dry place as high as the water
   CHECK(face(1, 0, 0, 3.0) == 0);
   CHECK(face(0, 0, 1, 3.0) == 0);
-  CHECK(face(0.5, 0, 2, 0) == 0.5);          // down a dry slope
+  CHECK(face(0.5, 0, 2, 0) == 0.5);  // down a dry slope
   CHECK(sisph::face_depth<false>(1.0, 2.0, 0.0, 0.0) == 1.5);
 }

@@ -53,8 +53,8 @@ double worst_difference(const Cloud<D>& a, const Cloud<D>& b, const char* name, 
 }
 
 template <int D>
-void check_images(const std::vector<Grain>& grains, const std::vector<Grain>& all, const std::vector<Polyline>& walls,
-                  const swe::AnyStabilisation& stabilise, double margin) {
+void check_images(const std::vector<Grain>& grains, const std::vector<Grain>& all,
+                  const std::vector<Polyline>& walls, const swe::AnyStabilisation& stabilise, double margin) {
   auto options = test::tight(D);
   options.margin = margin;
   Cloud<D> walled(grains, dx), whole(all, dx);
@@ -75,11 +75,13 @@ void check_images(const std::vector<Grain>& grains, const std::vector<Grain>& al
 
 TEST_CASE("mirror walls: images are the particles that they stand for") {
   const bool both = GENERATE(false, true);
-  // With lists no longer than a step's: neighbours of a larger h have images that are felt from beyond the particle's own support.
+  // With lists no longer than a step's: neighbours of a larger h have images that are felt from beyond the
+  // particle's own support.
   const double margin = GENERATE(4.0, 0.05);
   CAPTURE(both, margin);
   const auto grains = water(both);
-  for (const swe::AnyStabilisation& stabilise : {swe::AnyStabilisation(swe::NoStabilisation{}), swe::AnyStabilisation(swe::LaxFriedrichs{1})})
+  for (const swe::AnyStabilisation& stabilise :
+       {swe::AnyStabilisation(swe::NoStabilisation{}), swe::AnyStabilisation(swe::LaxFriedrichs{1})})
     check_images<2>(grains, with_images(grains, both), both ? corner : straight, stabilise, margin);
 }
 
@@ -88,7 +90,8 @@ TEST_CASE("mirror walls: images at the end of a line") {
   for (Grain& grain : grains) grain.x[0] = std::abs(grain.x[0]);
   auto all = grains;
   for (const Grain& grain : grains) all.push_back(mirrored(grain, 0));
-  for (const double margin : {4.0, 0.05}) check_images<1>(grains, all, {{{0, 0}}}, swe::LaxFriedrichs{1}, margin);
+  for (const double margin : {4.0, 0.05})
+    check_images<1>(grains, all, {{{0, 0}}}, swe::LaxFriedrichs{1}, margin);
 }
 
 TEST_CASE("mirror walls: a still lattice in a box feels nothing anywhere") {
@@ -115,7 +118,8 @@ TEST_CASE("mirror walls: the force keeps the momentum along a wall and pushes aw
   cloud.force(swe::LaxFriedrichs{1});
   const auto m = cloud.by_id("mass"), tx = cloud.by_id("tx"), ty = cloud.by_id("ty");
   double along = 0, across = 0, size = 0;
-  for (size_t i = 0; i < m.size(); ++i) along += m[i] * tx[i], across -= m[i] * ty[i], size += std::abs(m[i] * tx[i]);
+  for (size_t i = 0; i < m.size(); ++i)
+    along += m[i] * tx[i], across -= m[i] * ty[i], size += std::abs(m[i] * tx[i]);
   CHECK(std::abs(along) < 1e-12 * size);
   CHECK(across > 0.1 * size);
 }
@@ -125,9 +129,9 @@ TEST_CASE("mirror walls: exact for right corners with the water inside, and for 
   CHECK(only_right_corners({box}));
   CHECK(only_right_corners({{{0, 0}, {2, 0}}}));
   CHECK(only_right_corners({{{0, 0}, {2, 0}, {2, 1}}, {{5, 5}, {4, 4}}}));
-  CHECK_FALSE(only_right_corners({{{0, 0}, {2, 0}, {2, -1}}}));                            // re-entrant
-  CHECK_FALSE(only_right_corners({{{0, 0}, {2, 0}, {3, 1}}}));                             // 135 degrees
-  CHECK_FALSE(only_right_corners({{{0, 0}, {2, 0}, {4, 0}}}));                             // none: straight on
-  CHECK_FALSE(only_right_corners({box, {{0, 0}, {1, 0}, {1, -1}}}));                       // one of two lines
+  CHECK_FALSE(only_right_corners({{{0, 0}, {2, 0}, {2, -1}}}));       // re-entrant
+  CHECK_FALSE(only_right_corners({{{0, 0}, {2, 0}, {3, 1}}}));        // 135 degrees
+  CHECK_FALSE(only_right_corners({{{0, 0}, {2, 0}, {4, 0}}}));        // none: straight on
+  CHECK_FALSE(only_right_corners({box, {{0, 0}, {1, 0}, {1, -1}}}));  // one of two lines
   CHECK_FALSE(only_right_corners({{{0, 0}, {2, 0}, {2, 1.5}, {1, 2.5}, {0, 1.5}, {0, 0}}}));  // a gable
 }

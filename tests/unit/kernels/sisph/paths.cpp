@@ -11,7 +11,8 @@ namespace {
 
 using Rule = PathWeights (*)(const PathStep&);
 
-// Where a particle that starts at 0 with the velocity cos t is at t = 2 (exactly sin 2), in steps of 2/n and 3/n by turns.
+// Where a particle that starts at 0 with the velocity cos t is at t = 2 (exactly sin 2), in steps of 2/n and
+// 3/n by turns.
 double arrival(Rule rule, double theta, int n) {
   double x = 0, t = 0, last = 0;
   for (int k = 0; k < n; ++k) {
@@ -40,11 +41,13 @@ TEST_CASE("sisph paths: each rule has its order, with steps of changing length",
 }
 
 TEST_CASE("sisph paths: water in uniform motion is carried exactly", "[sisph]") {
-  for (const PathWeights& w : {euler_path({}), theta_path({0.7, 0, 0}), rk2_path({}), leap_frog_path({}), rk3_path({0, 0.1, 0}), rk3_path({0, 0.1, 0.3})}) {
+  for (const PathWeights& w : {euler_path({}), theta_path({0.7, 0, 0}), rk2_path({}), leap_frog_path({}),
+                               rk3_path({0, 0.1, 0}), rk3_path({0, 0.1, 0.3})}) {
     CHECK(w.before + w.start + w.end == Approx(1).epsilon(1e-15));
     CHECK(w.half_start + w.half_end == Approx(1).epsilon(1e-15));
   }
-  const PathWeights first = rk3_path({0, 0.1, 0});  // nothing is known before: the velocity is taken to be linear
+  const PathWeights first =
+      rk3_path({0, 0.1, 0});  // nothing is known before: the velocity is taken to be linear
   CHECK(first.before == 0);
   CHECK(first.start == Approx(0.5));
 }

@@ -1,4 +1,5 @@
-// Mirror pairs at walls: planes through the nearest point to the middle of a pair, images through right-angled corners.
+// Mirror pairs at walls: planes through the nearest point to the middle of a pair, images through
+// right-angled corners.
 #include "kernels/sisph/walls/mirror_walls.hpp"
 
 #include <catch2/catch.hpp>
@@ -14,18 +15,21 @@ using V2 = Vec<double, 2>;
 
 namespace {
 
-
 struct Mirrored {
   V2 x;
   Sym<double, 2> r;
 };
 std::vector<Mirrored> images(const MirrorWalls<2>& walls, V2 xi, V2 xj, double support) {
   std::vector<Mirrored> found;
-  walls.for_each_image(xi, xj, support, [&](const V2& x, const Sym<double, 2>& r) { found.push_back({x, r}); });
+  walls.for_each_image(xi, xj, support, [&](const V2& x, const Sym<double, 2>& r) {
+    found.push_back({x, r});
+  });
   return found;
 }
 
-Polyline box(double width, double height) { return {{0, 0}, {width, 0}, {width, height}, {0, height}, {0, 0}}; }
+Polyline box(double width, double height) {
+  return {{0, 0}, {width, 0}, {width, height}, {0, height}, {0, 0}};
+}
 Polyline circle(double radius, int corners) {
   Polyline line;
   for (int k = 0; k <= corners; ++k) {
@@ -48,7 +52,7 @@ TEST_CASE("sisph walls: a straight wall mirrors places and velocities") {
   const V2 turned = found[0].r * V2{2.0, 5.0};
   CHECK(turned.x == Approx(2));
   CHECK(turned.y == Approx(-5));
-  CHECK(images(walls, {3, 0.2}, {3.1, 0.3}, 0.5).empty());   // the image is 0.51 away
+  CHECK(images(walls, {3, 0.2}, {3.1, 0.3}, 0.5).empty());  // the image is 0.51 away
   CHECK(images(walls, {3, 3}, {3.1, 3}, 1).empty());
 }
 
@@ -66,7 +70,8 @@ TEST_CASE("sisph walls: a right-angled corner adds the image through it") {
   CHECK(walls.slanting_corners() == 0);
   bool through = false;
   for (const Mirrored& image : found)
-    if (distance(image.x, {-0.4, -0.1}) < 1e-14) through = image.r.xx == -1 && image.r.yy == -1 && image.r.xy == 0;
+    if (distance(image.x, {-0.4, -0.1}) < 1e-14)
+      through = image.r.xx == -1 && image.r.yy == -1 && image.r.xy == 0;
   CHECK(through);
 }
 
@@ -77,7 +82,8 @@ TEST_CASE("sisph walls: a curved wall has one plane per pair, the same seen from
   int seen = 0;
   for (int n = 0; n < 400; ++n) {
     const double angle = random(0, 2 * pi), r = random(0.85, 0.99);
-    const V2 a{r * std::cos(angle), r * std::sin(angle)}, b{a.x + random(-0.05, 0.05), a.y + random(-0.05, 0.05)};
+    const V2 a{r * std::cos(angle), r * std::sin(angle)},
+        b{a.x + random(-0.05, 0.05), a.y + random(-0.05, 0.05)};
     if (std::hypot(b.x, b.y) > 0.999) continue;
     const auto of_b = images(walls, a, b, support), of_a = images(walls, b, a, support);
     REQUIRE(of_a.size() == of_b.size());
@@ -144,7 +150,8 @@ TEST_CASE("sisph walls: of many chains near a pair each mirrors as if it stood a
   std::size_t most = 0;
   for (int n = 0; n < 400; ++n) {
     const double r = random(1.7, 1.99), angle = random(-pi, pi);
-    const V2 xi{r * std::cos(angle), r * std::sin(angle)}, xj{xi.x + random(-0.1, 0.1), xi.y + random(-0.1, 0.1)};
+    const V2 xi{r * std::cos(angle), r * std::sin(angle)},
+        xj{xi.x + random(-0.1, 0.1), xi.y + random(-0.1, 0.1)};
     const auto found = images(walls, xi, xj, 0.5);
     std::vector<Mirrored> alone;
     bool parted = false, near = false;

@@ -1,5 +1,6 @@
-// Where rows are cut into clusters changes no bit of what a particle gets: lanes do not see each other, and who is listed for
-// another lane's sake adds nothing. (In single precision two neighbours are summed at once: which two hangs on the list.)
+// Where rows are cut into clusters changes no bit of what a particle gets: lanes do not see each other, and
+// who is listed for another lane's sake adds nothing. (In single precision two neighbours are summed at once:
+// which two hangs on the list.)
 #include <catch2/catch.hpp>
 
 #include "tests/support/points/cloud.hpp"
@@ -19,13 +20,16 @@ std::vector<std::vector<double>> results(int later, const swe::AnyStabilisation&
   Cloud<D> cloud(water, dx);
   cloud.cut_later = later;
   const double side = D == 2 ? 1.5 : 4.5;  // half of what random_water fills
-  if (walled && D == 2) cloud.add_walls({{{-side, -side}, {side, -side}, {side, side}, {-side, side}, {-side, -side}}}, {0, 0});
+  if (walled && D == 2)
+    cloud.add_walls({{{-side, -side}, {side, -side}, {side, side}, {-side, side}, {-side, -side}}}, {0, 0});
   auto options = test::tight(D);
   options.gradient = true;
   cloud.settle(options);
   cloud.force(stabilise);
   std::vector<std::vector<double>> all;
-  for (const char* name : {"depth", "h", "depth_rate", "strain_xx", "pressure", "depth_slope_x", "tx", "signal"}) all.push_back(cloud.by_id(name));
+  for (const char* name :
+       {"depth", "h", "depth_rate", "strain_xx", "pressure", "depth_slope_x", "tx", "signal"})
+    all.push_back(cloud.by_id(name));
   return all;
 }
 

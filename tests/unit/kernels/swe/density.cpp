@@ -30,10 +30,13 @@ struct Root {
 };
 
 // sum m W(h) = rho with rho h^D = kh. F(h) = h^D sum m W grows with h, so that there is one root at most.
-Root bisect(int dimension, const std::vector<Grain>& grains, const Grain& grain, const swe::LengthBounds& bounds) {
+Root bisect(int dimension, const std::vector<Grain>& grains, const Grain& grain,
+            const swe::LengthBounds& bounds) {
   const double kh = grain.rho0 * std::pow(grain.h0, dimension);
   double low = bounds.floor * grain.h0, high = bounds.cap * grain.h0;
-  const auto excess = [&](double h) { return summed(dimension, grains, grain, h) * std::pow(h, dimension) - kh; };
+  const auto excess = [&](double h) {
+    return summed(dimension, grains, grain, h) * std::pow(h, dimension) - kh;
+  };
   if (excess(low) > 0) return {summed(dimension, grains, grain, low), low, -1};
   if (excess(high) < 0) return {summed(dimension, grains, grain, high), high, 1};
   for (int n = 0; n < 100; ++n) (excess(0.5 * (low + high)) < 0 ? low : high) = 0.5 * (low + high);
@@ -46,7 +49,8 @@ struct Deviation {
 };
 
 template <int D>
-Deviation against_bisection(const Cloud<D>& cloud, const std::vector<Grain>& grains, const swe::LengthBounds& bounds) {
+Deviation against_bisection(const Cloud<D>& cloud, const std::vector<Grain>& grains,
+                            const swe::LengthBounds& bounds) {
   Deviation worst;
   const auto rho = cloud.by_id("depth"), h = cloud.by_id("h");
   for (size_t i = 0; i < grains.size(); ++i) {
@@ -112,7 +116,7 @@ TEST_CASE("density: a good guess needs few evaluations, and at the default toler
 
 TEST_CASE("density: isolated particles end at the cap with alpha 1, light ones at the floor") {
   auto grains = test::still_water(2, test::lattice(2, {0, 20, 0, 20}, dx), dx, 0.7, 1.2);
-  grains.push_back({{-3, 0.1}, {0, 0}, 0.7 * dx * dx, 0.7, 1.2 * dx});      // alone
+  grains.push_back({{-3, 0.1}, {0, 0}, 0.7 * dx * dx, 0.7, 1.2 * dx});       // alone
   grains.push_back({{1.03, 1.02}, {0, 0}, 1e-6 * dx * dx, 1e-6, 1.2 * dx});  // a light one among heavy ones
   Cloud<2> cloud(grains, dx);
   const auto options = test::tight(2);
@@ -121,7 +125,8 @@ TEST_CASE("density: isolated particles end at the cap with alpha 1, light ones a
   CHECK(report.capped >= 1);
   CHECK(report.floored >= 1);
   CHECK(cloud.of(400, "h") == Approx(high).epsilon(1e-15));
-  CHECK(cloud.of(400, "depth") == Approx(0.7 * dx * dx * test::printed_w(2, 0) / (high * high)).epsilon(1e-12));
+  CHECK(cloud.of(400, "depth") ==
+        Approx(0.7 * dx * dx * test::printed_w(2, 0) / (high * high)).epsilon(1e-12));
   CHECK(cloud.of(400, "pressure") == Approx(0.5 * g).epsilon(1e-15));  // g/(2 alpha)
   CHECK(cloud.of(400, "depth_rate") == 0);
   CHECK(cloud.of(401, "h") == Approx(low).epsilon(1e-15));
@@ -147,8 +152,8 @@ void check_alpha() {
     const bool bounded = bisect(D, grains, grains[i], test::tight(D).bounds).bound != 0;
     worst = std::max(worst, std::abs(0.5 * g / pressure[i] - (bounded ? 1.0 : difference)));
   }
-  // Truncation s^2 times a third derivative of order one, where the spline's third derivative jumps s times one; rounding
-  // 1e-16 / 1e-5.
+  // Truncation s^2 times a third derivative of order one, where the spline's third derivative jumps s times
+  // one; rounding 1e-16 / 1e-5.
   CHECK(worst < 1e-9);
 }
 
@@ -173,7 +178,8 @@ void check_rate() {
   const auto later = roots_after<D>(grains, s), earlier = roots_after<D>(grains, -s);
   const auto rate = cloud.by_id("depth_rate");
   double worst = 0;
-  for (size_t i = 0; i < grains.size(); ++i) worst = std::max(worst, std::abs(rate[i] - (later[i] - earlier[i]) / (2 * s)));
+  for (size_t i = 0; i < grains.size(); ++i)
+    worst = std::max(worst, std::abs(rate[i] - (later[i] - earlier[i]) / (2 * s)));
   // The roots are good to 1e-13 of a depth of order 1 m: 1e-13 / 1e-6 = 1e-7 m/s against rates of 10 m/s.
   CHECK(worst < 1e-6 * test::largest_size(rate));
   CHECK(test::largest_size(rate) > 1);
@@ -197,10 +203,12 @@ TEST_CASE("density: growth extrapolates the rate to the middle of the next step"
   cloud.settle(test::tight(2));
   const auto earlier = cloud.by_id("depth_rate");
   const swe::Particles<2> p = cloud.bind();
-  for (int i = 0; i < cloud.fields.size(); ++i) p.rate(i) *= 0.5;  // as if it had been half as large a step ago
+  for (int i = 0; i < cloud.fields.size(); ++i)
+    p.rate(i) *= 0.5;  // as if it had been half as large a step ago
   auto options = test::tight(2);
   options.ahead = 0.5;
-  swe::solve_density<2>(cloud.kernel, cloud.clusters, cloud.neighbours.view(), cloud.wall_view(), p, {}, options);
+  swe::solve_density<2>(cloud.kernel, cloud.clusters, cloud.neighbours.view(), cloud.wall_view(), p, {},
+                        options);
   const auto rate = cloud.by_id("depth_rate"), growth = cloud.by_id("depth_growth");
   for (size_t i = 0; i < grains.size(); ++i) {
     CHECK(rate[i] == Approx(earlier[i]).epsilon(1e-9));  // the root again
@@ -208,7 +216,8 @@ TEST_CASE("density: growth extrapolates the rate to the middle of the next step"
   }
 }
 
-TEST_CASE("density: a linear velocity field has its exact strain, also at the edge and among unequal particles") {
+TEST_CASE(
+    "density: a linear velocity field has its exact strain, also at the edge and among unequal particles") {
   auto grains = test::random_water(2, 400, dx, 9);
   for (Grain& grain : grains)
     grain.v = {3 + 0.5 * grain.x[0] - 2.0 * grain.x[1], -1 + 0.7 * grain.x[0] + 1.5 * grain.x[1]};
@@ -217,7 +226,8 @@ TEST_CASE("density: a linear velocity field has its exact strain, also at the ed
   const auto xx = cloud.by_id("strain_xx"), xy = cloud.by_id("strain_xy"), yy = cloud.by_id("strain_yy");
   int exact = 0, none = 0;
   for (size_t i = 0; i < grains.size(); ++i) {
-    // Velocities of 10 m/s round by 1e-15 m/s, distances are 0.01 m and more, 1/r is known to 1e-12 on both sides.
+    // Velocities of 10 m/s round by 1e-15 m/s, distances are 0.01 m and more, 1/r is known to 1e-12 on both
+    // sides.
     exact += std::abs(xx[i] - 0.5) < 1e-9 && std::abs(xy[i] + 0.65) < 1e-9 && std::abs(yy[i] - 1.5) < 1e-9;
     none += xx[i] == 0 && xy[i] == 0 && yy[i] == 0;
   }
@@ -236,7 +246,8 @@ TEST_CASE("density: the strain in one dimension, and none where the neighbours l
   for (Grain& grain : row) grain.v = {grain.x[0], grain.x[0]};
   Cloud<2> plane(row, dx);
   plane.solve(test::tight(2));
-  for (const char* name : {"strain_xx", "strain_xy", "strain_yy"}) CHECK(test::largest_size(plane.by_id(name)) == 0);
+  for (const char* name : {"strain_xx", "strain_xy", "strain_yy"})
+    CHECK(test::largest_size(plane.by_id(name)) == 0);
 }
 
 namespace {
@@ -278,5 +289,6 @@ TEST_CASE("density: the lattice's bias") {
   Cloud<2> cloud(grains, dx);
   cloud.solve(test::tight(2));
   CHECK(swe::lattice_sums<2>(1.2).density == Approx(cloud.of(10 * 20 + 10, "depth") / 0.7).epsilon(1e-11));
-  CHECK(swe::lattice_sums<2>(1.2).alpha == Approx(0.5 * g / cloud.of(10 * 20 + 10, "pressure")).epsilon(1e-11));
+  CHECK(swe::lattice_sums<2>(1.2).alpha ==
+        Approx(0.5 * g / cloud.of(10 * 20 + 10, "pressure")).epsilon(1e-11));
 }

@@ -19,7 +19,8 @@ constexpr double g = 9.81;  // m/s2
 
 template <int D>
 Direct direct(const Cloud<D>& cloud, const std::vector<Grain>& grains, Flux flux, double strength) {
-  Direct s{D, g, flux, strength, test::tight(D).bounds, grains, cloud.by_id("h"), cloud.by_id("depth"), {}, {}, {}};
+  Direct s{D,  g,  flux, strength, test::tight(D).bounds, grains, cloud.by_id("h"), cloud.by_id("depth"),
+           {}, {}, {}};
   for (size_t i = 0; i < grains.size(); ++i) s.alpha.push_back(test::direct_alpha(s, i));
   for (size_t i = 0; i < grains.size(); ++i) {
     s.gradient.push_back(test::direct_gradient(s, i));
@@ -61,7 +62,8 @@ void check_force(Flux flux, unsigned seed) {
 }  // namespace
 
 TEST_CASE("force: the direct sum over all pairs") {
-  const Flux flux = GENERATE(Flux::none, Flux::lax_friedrichs, Flux::muscl, Flux::viscosity, Flux::two_shock, Flux::two_shock_muscl);
+  const Flux flux = GENERATE(Flux::none, Flux::lax_friedrichs, Flux::muscl, Flux::viscosity, Flux::two_shock,
+                             Flux::two_shock_muscl);
   for (const unsigned seed : {1u, 2u}) {
     check_force<1>(flux, seed);
     check_force<2>(flux, seed);
@@ -82,7 +84,8 @@ void check_momentum(Flux flux) {
     const auto t = cloud.by_id(name), m = cloud.by_id("mass");
     double sum = 0, size = 0;
     for (size_t i = 0; i < t.size(); ++i) sum += m[i] * t[i], size += std::abs(m[i] * t[i]);
-    // Every pair enters twice with opposite signs, from the same numbers but in another order of multiplications.
+    // Every pair enters twice with opposite signs, from the same numbers but in another order of
+    // multiplications.
     CHECK(std::abs(sum) < 1e-14 * size);
     CHECK(size > 0);
   }
@@ -123,7 +126,8 @@ void check_gradient(size_t particle) {
     ahead[particle].x[k] += s;
     behind[particle].x[k] -= s;
     const double difference = (energy<D>(ahead) - energy<D>(behind)) / (2 * s) / grains[particle].m;
-    // E holds 150 terms m g rho/2 good to 1e-13 and is divided by m s; t is g rho/h: 1e-13 sqrt(150) h/s = 1e-6 of it.
+    // E holds 150 terms m g rho/2 good to 1e-13 and is divided by m s; t is g rho/h: 1e-13 sqrt(150) h/s =
+    // 1e-6 of it.
     CHECK(std::abs(difference - cloud.of(static_cast<int>(particle), k == 0 ? "tx" : "ty")) < 3e-6 * largest);
   }
 }
@@ -151,14 +155,17 @@ TEST_CASE("force: none in water of constant velocity from any stabilisation, non
   double changed = 0;
   for (size_t i = 0; i < muscl.size(); ++i)
     changed = std::max({changed, std::abs(plain[i] - inviscid[i]), std::abs(muscl[i] - inviscid[i])});
-  CHECK(changed < 1e-13 * test::largest_size(inviscid));  // v_ij is exactly zero; three loops compiled apart round apart
+  CHECK(changed < 1e-13 * test::largest_size(
+                              inviscid));  // v_ij is exactly zero; three loops compiled apart round apart
   CHECK(std::abs(cloud.of(15 * 30 + 15, "tx")) < 1e-10 * g);  // by symmetry, 12 dx from the edge: round-off
-  CHECK(cloud.of(15 * 30, "tx") > 0.1 * g);                   // at the left edge t points inwards, a = -t outwards
+  CHECK(cloud.of(15 * 30, "tx") > 0.1 * g);  // at the left edge t points inwards, a = -t outwards
 }
 
-TEST_CASE("force: reconstruction takes the whole jump of a linear velocity field, and none of a lone particle's") {
+TEST_CASE(
+    "force: reconstruction takes the whole jump of a linear velocity field, and none of a lone particle's") {
   auto grains = test::random_water(2, 300, dx, 5);
-  for (Grain& grain : grains) grain.v = {0.5 * grain.x[0] - 2.0 * grain.x[1], 0.7 * grain.x[0] + 1.5 * grain.x[1]};
+  for (Grain& grain : grains)
+    grain.v = {0.5 * grain.x[0] - 2.0 * grain.x[1], 0.7 * grain.x[0] + 1.5 * grain.x[1]};
   Cloud<2> cloud(grains, dx);
   cloud.settle(test::tight(2));
   cloud.force(swe::NoStabilisation{});
@@ -169,13 +176,14 @@ TEST_CASE("force: reconstruction takes the whole jump of a linear velocity field
   cloud.force(swe::LaxFriedrichs{1});
   const auto plain = cloud.by_id("tx");
   double left = 0, whole = 0;
-  const bool all_exact = std::all_of(strain.begin(), strain.end(), [](double s) { return std::abs(s - 1.5) < 1e-9; });
+  const bool all_exact =
+      std::all_of(strain.begin(), strain.end(), [](double s) { return std::abs(s - 1.5) < 1e-9; });
   for (size_t i = 0; i < muscl.size(); ++i) {
     left = std::max(left, std::abs(muscl[i] - inviscid[i]));
     whole = std::max(whole, std::abs(plain[i] - inviscid[i]));
   }
-  REQUIRE(all_exact);             // else this seed has neighbours on a line, whose strain is set to zero
-  CHECK(left < 1e-9 * whole);     // strains are good to 1e-9
+  REQUIRE(all_exact);          // else this seed has neighbours on a line, whose strain is set to zero
+  CHECK(left < 1e-9 * whole);  // strains are good to 1e-9
   CHECK(whole > 0.1);
 }
 
@@ -208,7 +216,8 @@ template <int D>
 void check_tiny(Flux flux, double depth) {
   CAPTURE(D, static_cast<int>(flux), depth);
   auto grains = test::random_water(D, 100, dx, 7);
-  for (size_t i = 0; i < grains.size(); i += 2) grains[i].m *= depth, grains[i].rho0 *= depth, grains[i].rho *= depth;
+  for (size_t i = 0; i < grains.size(); i += 2)
+    grains[i].m *= depth, grains[i].rho0 *= depth, grains[i].rho *= depth;
   Cloud<D> cloud(grains, dx);
   cloud.settle(test::tight(D));
   cloud.force(stabilisation(flux, 1));

@@ -13,9 +13,12 @@ namespace {
 constexpr double huge = 1e300;
 
 template <int D>
-int merge(Cloud<D>& cloud, double area, double split_area = huge, const Field<int>& kind = {}, double reach = 1) {
+int merge(Cloud<D>& cloud, double area, double split_area = huge, const Field<int>& kind = {},
+          double reach = 1) {
   cloud.solve(test::tight(D));
-  swe::Refinement<D> refinement({}, swe::MergeOptions{PlacedValue(area, {}), PlacedValue(split_area, {}), reach}, {1.2, 9.81, 1, 1e300});
+  swe::Refinement<D> refinement({},
+                                swe::MergeOptions{PlacedValue(area, {}), PlacedValue(split_area, {}), reach},
+                                {1.2, 9.81, 1, 1e300});
   return refinement.merge(cloud.bind(), cloud.fields.size(), kind, cloud.clusters, cloud.neighbours.view());
 }
 
@@ -58,7 +61,8 @@ TEST_CASE("merging: the new particle keeps mass, centre, momentum, area and the 
   std::vector<Old> old;
   for (int id : {64, 65})
     for (int i = 0; i < cloud.fields.size(); ++i)
-      if (before.id(i) == id) old.push_back({before.m(i), before.x.x(i), before.v.x(i), before.rho(i), before.h(i)});
+      if (before.id(i) == id)
+        old.push_back({before.m(i), before.x.x(i), before.v.x(i), before.rho(i), before.h(i)});
   REQUIRE(merge(cloud, 0.5) == 1);
   const auto p = cloud.bind();
   for (int i = 0; i < cloud.fields.size(); ++i) {
@@ -92,7 +96,8 @@ TEST_CASE("merging: equal distances are settled by the ids") {
   std::vector<Grain> row;
   for (int k = 0; k < 7; ++k) row.push_back({{static_cast<double>(k), 0}, {0, 0}, 1.0, 1.0, 1.0});
   Cloud<1> cloud(row, 1.0);
-  REQUIRE(merge(cloud, 10.0, huge, {}, 1.4) == 1);  // all distances are equal: 0-1 is the first pair; 2 wanted 1
+  REQUIRE(merge(cloud, 10.0, huge, {}, 1.4) ==
+          1);  // all distances are equal: 0-1 is the first pair; 2 wanted 1
   for (int i = 0; i < 7; ++i) CHECK((cloud.bind().id(i) < 0) == (cloud.bind().x.x(i) == 1));
 }
 
@@ -112,7 +117,8 @@ TEST_CASE("relaxation: h goes to eta (m / depth)^(1/D) at the stated rate and st
   const double h0 = p.h0(middle);
   slow.relax(cloud.clusters, cloud.neighbours.view(), p, {}, dt);
   CHECK(p.kh(middle) == Approx(target * std::pow(4, std::exp(-rate * dt))).epsilon(1e-12));
-  CHECK(p.h0(middle) / h0 == Approx(std::sqrt(p.kh(middle) / (4 * target))).epsilon(1e-12));  // rho0 = kh / h0^2 stays
+  CHECK(p.h0(middle) / h0 ==
+        Approx(std::sqrt(p.kh(middle) / (4 * target))).epsilon(1e-12));  // rho0 = kh / h0^2 stays
   fast.relax(cloud.clusters, cloud.neighbours.view(), p, {}, dt);
   for (int i = 0; i < cloud.fields.size(); ++i) CHECK(p.kh(i) == Approx(target).epsilon(1e-12));
 }

@@ -26,8 +26,8 @@ struct Flow {
     for (int i = 0; i < cloud.fields.size(); ++i) p.h(i) = p.h0(i), p.celerity(i) = 1;
   }
   void lay_bed(const Level& level, double half, double spacing, bool variational) {
-    options.bed = swe::BedTerm<D>{BedSpline<D>(level, {{-half, -half}, {half, half}, spacing, 0}), variational,
-                              cloud.fields.real("bed", "m", Carry::no)};
+    options.bed = swe::BedTerm<D>{BedSpline<D>(level, {{-half, -half}, {half, half}, spacing, 0}),
+                                  variational, cloud.fields.real("bed", "m", Carry::no)};
   }
   void roughen(double manning) {
     options.friction = swe::Friction{g, manning};
@@ -58,7 +58,8 @@ double terminal_speed(double depth, double dt, int steps) {
 TEST_CASE("motion: friction has the exact steady state at any step") {
   // sqrt(S) d^(2/3) / n, where docs/formulas/swe.md (S27) stands still, and its digits. The runs last 75
   // times the relaxation time v/(2 g S); what is left is the error of d^(-1/3), 2e-13.
-  const double deep = std::sqrt(0.01) * std::pow(1e-2, 2.0 / 3) / 0.03, shallow = std::sqrt(0.01) * std::pow(1e-4, 2.0 / 3) / 0.03;
+  const double deep = std::sqrt(0.01) * std::pow(1e-2, 2.0 / 3) / 0.03,
+               shallow = std::sqrt(0.01) * std::pow(1e-4, 2.0 / 3) / 0.03;
   CHECK(deep == Approx(0.1547).margin(0.5e-4));
   CHECK(shallow == Approx(7.18e-3).margin(0.5e-5));
   CHECK(terminal_speed<1>(1e-2, 1.0, 60) == Approx(deep).epsilon(1e-11));
@@ -76,7 +77,8 @@ TEST_CASE("motion: friction slows and never turns round") {
     CHECK(dot(slower, v) >= 0);
     CHECK(after <= speed);
     CHECK(std::abs(slower.x * v.y - slower.y * v.x) <= 1e-15 * speed * speed);  // the same direction
-    // Backward Euler's own equation: v - v_new = dt K |v_new| v_new; the root cancels where friction is strong.
+    // Backward Euler's own equation: v - v_new = dt K |v_new| v_new; the root cancels where friction is
+    // strong.
     CHECK(after * (1 + dt * drag * after) == Approx(speed).epsilon(1e-13));
   }
 }
@@ -100,14 +102,16 @@ TEST_CASE("motion: no roughness is no friction to the bit") {
 
 namespace {
 
-// Largest error of the energy of a point mass in an elliptic bowl of slopes about 1 over 10 s, relative to the start.
+// Largest error of the energy of a point mass in an elliptic bowl of slopes about 1 over 10 s, relative to
+// the start.
 double bowl_error(double dt, bool variational) {
   const auto level = [](double x, double y) { return 0.2 * x * x + 0.35 * y * y; };
   Flow<2> flow({particle(0.1, {2.0, 0.5}, {0.5, 1.0})});
   flow.lay_bed(level, 8, 0.5, variational);
   flow.start();
   const auto energy = [&] {
-    const double x = flow.cloud.of(0, "x"), y = flow.cloud.of(0, "y"), u = flow.cloud.of(0, "u"), v = flow.cloud.of(0, "v");
+    const double x = flow.cloud.of(0, "x"), y = flow.cloud.of(0, "y"), u = flow.cloud.of(0, "u"),
+                 v = flow.cloud.of(0, "v");
     const double w = 0.4 * x * u + 0.7 * y * v;  // v . grad b: it follows the bed
     return 0.5 * (u * u + v * v + w * w) + g * level(x, y);
   };
@@ -123,7 +127,8 @@ double bowl_error(double dt, bool variational) {
 }  // namespace
 
 TEST_CASE("motion: the variational acceleration keeps a point mass' energy, of second order in dt") {
-  const double coarse = bowl_error(0.02, true), fine = bowl_error(0.01, true), finer = bowl_error(0.005, true);
+  const double coarse = bowl_error(0.02, true), fine = bowl_error(0.01, true),
+               finer = bowl_error(0.005, true);
   CHECK(finer < 1e-3);
   CHECK(coarse / fine == Approx(4).margin(1));
   CHECK(fine / finer == Approx(4).margin(0.6));
@@ -136,9 +141,11 @@ TEST_CASE("motion: still water accelerates nowhere: t = -g B gives a = 0") {
   for (const auto& x : test::random_points(2, 50, 5, 4)) grains.push_back(particle(0.3, x));
   for (const bool variational : {true, false}) {
     Flow<2> flow(grains);
-    flow.lay_bed([](double x, double y) { return std::sin(0.7 * x) * std::cos(0.5 * y); }, 6, 0.5, variational);
+    flow.lay_bed([](double x, double y) { return std::sin(0.7 * x) * std::cos(0.5 * y); }, 6, 0.5,
+                 variational);
     const swe::Particles<2> p = flow.cloud.bind();
-    for (int i = 0; i < flow.cloud.fields.size(); ++i) put(p.t, i, -g * flow.options.bed->spline.at(at(p.x, i)).slope);
+    for (int i = 0; i < flow.cloud.fields.size(); ++i)
+      put(p.t, i, -g * flow.options.bed->spline.at(at(p.x, i)).slope);
     flow.start();
     CHECK(test::largest_size(flow.cloud.by_id("ax")) < 1e-14 * g);  // three roundings of g B, B < 1
     CHECK(test::largest_size(flow.cloud.by_id("ay")) < 1e-14 * g);
@@ -182,7 +189,7 @@ TEST_CASE("motion: the depth is predicted to second order and stays positive, h 
   p.growth(0) = 0.04, p.growth(1) = -400, p.growth(2) = 400, p.growth(3) = 0;
   swe::kick_and_drift<1>(p, flow.options, 4, 0.1);
   CHECK(p.rho(0) == Approx(0.4 * std::exp(0.01)).epsilon(1e-7));  // the next term of exp: z^3/12
-  CHECK(p.rho(1) == Approx(0.4 * 0.6));                           // (1 - 1/4)/(1 + 1/4): growth is held within a half
+  CHECK(p.rho(1) == Approx(0.4 * 0.6));  // (1 - 1/4)/(1 + 1/4): growth is held within a half
   CHECK(p.rho(2) == Approx(0.4 / 0.6));
   CHECK(p.rho(3) == 0.4);
   CHECK(p.h(0) == Approx(1.2 * 0.4 / p.rho(0)));  // rho h = kh
@@ -218,5 +225,6 @@ TEST_CASE("motion: the crossing time is the least h / (c + signal)") {
   }
   CHECK(swe::accelerate_and_kick<2>(p, flow.options, 37, 0) == Approx(least).epsilon(1e-15));
   p.h(36) = 1e-3;
-  CHECK(swe::accelerate_and_kick<2>(p, flow.options, 37, 0) == Approx(1e-3 / (p.celerity(36) + p.signal(36))).epsilon(1e-15));
+  CHECK(swe::accelerate_and_kick<2>(p, flow.options, 37, 0) ==
+        Approx(1e-3 / (p.celerity(36) + p.signal(36))).epsilon(1e-15));
 }

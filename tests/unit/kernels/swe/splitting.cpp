@@ -1,4 +1,5 @@
-// Splitting: the optimal shares of the mass, the density that a split leaves, where daughters come to lie, regions.
+// Splitting: the optimal shares of the mass, the density that a split leaves, where daughters come to lie,
+// regions.
 #include <catch2/catch.hpp>
 
 #include <limits>
@@ -24,7 +25,8 @@ template <int D>
 int split(Cloud<D>& cloud, const swe::SplitOptions& options) {
   swe::Refinement<D> refinement(options, {}, {1.2, 9.81, 1, 1e300});
   int next_id = cloud.fields.size();
-  return refinement.split(cloud.fields, [&] { return cloud.bind(); }, {}, cloud.wall_view(), next_id);
+  return refinement.split(
+      cloud.fields, [&] { return cloud.bind(); }, {}, cloud.wall_view(), next_id);
 }
 
 // sum_j m_j W(x - x_j, h), h of the neighbours (scatter) or one for all (gather).
@@ -59,7 +61,8 @@ TEST_CASE("splitting: integrals of kernel products are exact") {
   CHECK(swe::kernel_product<2>(1, 1, 0) == Approx(0.238964).margin(5e-7));  // the constant C of (3.7)
   CHECK(swe::kernel_product<2>(1, 0.7, 0.8) == Approx(swe::kernel_product<2>(0.7, 1, 0.8)).epsilon(1e-10));
   CHECK(swe::kernel_product<2>(0.6, 0.6, 2.41) == 0);
-  // W * W * 1 = 1: the product integrated over the distance, by the trapezium rule (both ends flat: it converges fast).
+  // W * W * 1 = 1: the product integrated over the distance, by the trapezium rule (both ends flat: it
+  // converges fast).
   double line = 0, plane = 0;
   const double step = 0.02;
   for (int k = 0; k < 200; ++k) {
@@ -103,8 +106,9 @@ TEST_CASE("splitting: in one dimension the shares minimise the error") {
 }
 
 TEST_CASE("splitting: the density that is left, scatter and gather") {
-  // Vacondio 2010, 3.3.1: 11 x 11 parents at 50 m in a larger lattice, h = 60 m, depth 10 m. Printed: scatter 0.3 %,
-  // gather 5 %; an independent computation: scatter 0.41 %, gather 5.39 % with h fixed and 5.15 % after Newton.
+  // Vacondio 2010, 3.3.1: 11 x 11 parents at 50 m in a larger lattice, h = 60 m, depth 10 m. Printed: scatter
+  // 0.3 %, gather 5 %; an independent computation: scatter 0.41 %, gather 5.39 % with h fixed and 5.15 %
+  // after Newton.
   const double dx = 50, depth = 10;
   Cloud<2> cloud(test::still_water(2, test::lattice(2, {-14, 15, -14, 15}, dx), dx, depth, 1.2), dx);
   const double low = -5 * dx, high = 6 * dx;
@@ -115,7 +119,9 @@ TEST_CASE("splitting: the density that is left, scatter and gather") {
   REQUIRE(cloud.fields.size() == 29 * 29 + 6 * 121);
   swe::Particles<2> p = cloud.bind();
   const int n = cloud.fields.size();
-  const auto whole = [&](int i) { return std::abs(p.x.x(i) - 25) < 11 * dx && std::abs(p.x.y(i) - 25) < 11 * dx; };
+  const auto whole = [&](int i) {
+    return std::abs(p.x.x(i) - 25) < 11 * dx && std::abs(p.x.y(i) - 25) < 11 * dx;
+  };
   double scatter = 0, gather = 0, newton = 0;
   for (int i = 0; i < n; ++i) {
     if (!whole(i)) continue;
@@ -175,7 +181,8 @@ TEST_CASE("splitting: only what covers the area, is deep enough, is fluid and fi
     Cloud<2> cloud(water, dx);
     swe::Refinement<2> refinement(options, {}, {1.2, 9.81, 1, 1e300});
     int next_id = 16;
-    const int splits = refinement.split(cloud.fields, [&] { return cloud.bind(); }, kind, {}, next_id);
+    const int splits = refinement.split(
+        cloud.fields, [&] { return cloud.bind(); }, kind, {}, next_id);
     CHECK(next_id == 16 + 6 * splits);
     return splits;
   };
@@ -247,7 +254,8 @@ TEST_CASE("splitting: daughters stay before the walls") {
 }
 
 TEST_CASE("splitting: regions hold their places, the first of them counts") {
-  const PlacedValue limit(5, {{{{0, 0}, {2, 0}, {2, 2}, {1, 1}, {0, 2}}, 1}, {{{-1, -1}, {3, -1}, {3, 3}, {-1, 3}}, 2}});
+  const PlacedValue limit(
+      5, {{{{0, 0}, {2, 0}, {2, 2}, {1, 1}, {0, 2}}, 1}, {{{-1, -1}, {3, -1}, {3, 3}, {-1, 3}}, 2}});
   CHECK(limit(Vec<double, 2>{0.5, 0.5}) == 1);
   CHECK(limit(Vec<double, 2>{1, 1.5}) == 2);  // in the notch
   CHECK(limit(Vec<double, 2>{2.5, 0.5}) == 2);

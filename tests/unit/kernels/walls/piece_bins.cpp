@@ -13,7 +13,8 @@ using V2 = Vec<double, 2>;
 
 namespace {
 
-// Whether the segment has a point in the box: the part of it that lies between the box's sides along x and y is not empty.
+// Whether the segment has a point in the box: the part of it that lies between the box's sides along x and y
+// is not empty.
 bool touches(const Piece& s, const Box& box) {
   double from = 0, to = 1;
   const auto keep = [&](double a, double b, double low, double high) {
@@ -39,7 +40,8 @@ std::vector<int> touching(const std::vector<Piece>& segments, const Box& box) {
   return all;
 }
 
-// Every segment that touches the box is found, once, in ascending order, and any() sees the same ones at least.
+// Every segment that touches the box is found, once, in ascending order, and any() sees the same ones at
+// least.
 void check(const PieceBins& bins, const std::vector<Piece>& segments, const Box& box) {
   CAPTURE(box.xlo, box.xhi, box.ylo, box.yhi);
   const std::vector<int> seen = found(bins, box), near = touching(segments, box);
@@ -49,8 +51,8 @@ void check(const PieceBins& bins, const std::vector<Piece>& segments, const Box&
   REQUIRE_FALSE(bins.any(box, [](int) { return false; }));
 }
 
-// Chains with shared ends, free segments of all lengths, some along the axes, some of no length at all; far from the origin
-// as maps are.
+// Chains with shared ends, free segments of all lengths, some along the axes, some of no length at all; far
+// from the origin as maps are.
 std::vector<Piece> mixed(int count, double size, double x0, unsigned seed) {
   test::Random random(seed);
   std::vector<Piece> all;
@@ -145,7 +147,8 @@ TEST_CASE("piece bins: a query costs what is near, however many sides a coast ha
     }
   }
   CAPTURE(shown[0], shown[1]);
-  // Cells are about sqrt(area / 16 sides) wide at least, which grows as sqrt(sides) against a side's length: by 10 here.
+  // Cells are about sqrt(area / 16 sides) wide at least, which grows as sqrt(sides) against a side's length:
+  // by 10 here.
   CHECK(shown[0] < 20);
   CHECK(shown[1] < 12 * shown[0]);
 }

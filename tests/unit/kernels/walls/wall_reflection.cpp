@@ -15,7 +15,8 @@ constexpr double depth = 0.7;    // m
 constexpr double far = 30 * dx;  // m, where walls end
 
 // Corners at the origin.
-const Polyline straight{{-far, 0}, {far, 0}}, right_angle{{0, far}, {0, 0}, {far, 0}}, re_entrant{{-far, 0}, {0, 0}, {0, -far}};
+const Polyline straight{{-far, 0}, {far, 0}}, right_angle{{0, far}, {0, 0}, {far, 0}},
+    re_entrant{{-far, 0}, {0, 0}, {0, -far}};
 
 struct Moving {
   Point x, v;
@@ -23,7 +24,8 @@ struct Moving {
 
 // One particle, put at q.x after the list was made where it was near the wall, then reflected.
 template <int D>
-Moving reflected(const std::vector<Polyline>& lines, const Point& inside, const Point& before, const Moving& q) {
+Moving reflected(const std::vector<Polyline>& lines, const Point& inside, const Point& before,
+                 const Moving& q) {
   const double area = D == 1 ? dx : dx * dx;
   Cloud<D> cloud({{before, q.v, depth * area, depth, 1.2 * dx}}, dx);
   cloud.add_walls(lines, inside);
@@ -51,8 +53,10 @@ void require_at(const Moving& q, const Point& x, const Point& v) {
 TEST_CASE("walls: what crosses a straight wall is put back") {
   const Point before{0.02, 0.02};
   require_at(reflected<2>({straight}, {0, 1}, before, {{0.03, -0.01}, {1, -2}}), {0.03, 0.01}, {1, 2});
-  require_at(reflected<2>({straight}, {0, 1}, before, {{0.03, -0.01}, {1, 2}}), {0.03, 0.01}, {1, 2});  // already returning
-  require_at(reflected<2>({straight}, {0, 1}, before, {{0.03, 0.01}, {1, -2}}), {0.03, 0.01}, {1, -2});  // has not crossed
+  require_at(reflected<2>({straight}, {0, 1}, before, {{0.03, -0.01}, {1, 2}}), {0.03, 0.01},
+             {1, 2});  // already returning
+  require_at(reflected<2>({straight}, {0, 1}, before, {{0.03, 0.01}, {1, -2}}), {0.03, 0.01},
+             {1, -2});  // has not crossed
 }
 
 TEST_CASE("walls: a wall at any angle keeps the velocity along it") {
@@ -69,14 +73,16 @@ TEST_CASE("walls: what slips behind a right corner comes back through both walls
   require_at(reflected<2>({right_angle}, {1, 1}, before, {{-0.01, 0.02}, {-1, -2}}), {0.01, 0.02}, {1, -2});
 }
 
-TEST_CASE("walls: a re-entrant corner leaves the fluid beside it alone and turns back what enters the solid") {
+TEST_CASE(
+    "walls: a re-entrant corner leaves the fluid beside it alone and turns back what enters the solid") {
   for (const Point& beside : {Point{0.02, -0.04}, Point{-0.04, 0.02}, Point{0.01, 0.01}}) {
     CAPTURE(beside[0], beside[1]);
     require_at(reflected<2>({re_entrant}, {1, 1}, beside, {beside, {-1, -2}}), beside, {-1, -2});
   }
   const Moving q = reflected<2>({re_entrant}, {1, 1}, {0.01, 0.01}, {{-0.01, -0.02}, {-1, -2}});
   CHECK((q.x[0] > 0 || q.x[1] > 0));
-  require_at(reflected<2>({re_entrant}, {1, 1}, {0.01, -0.5}, {{-0.01, -0.5}, {-1, -2}}), {0.01, -0.5}, {1, -2});
+  require_at(reflected<2>({re_entrant}, {1, 1}, {0.01, -0.5}, {{-0.01, -0.5}, {-1, -2}}), {0.01, -0.5},
+             {1, -2});
 }
 
 TEST_CASE("walls: a closed box turns back at every side and corner") {

@@ -15,12 +15,13 @@ using test::Grain;
 
 namespace {
 
-constexpr double dx = 0.1;      // m
-constexpr double depth = 0.7;   // m
-constexpr double far = 30 * dx; // m, where walls end
+constexpr double dx = 0.1;       // m
+constexpr double depth = 0.7;    // m
+constexpr double far = 30 * dx;  // m, where walls end
 
 // Corners at the origin; the water lies above, in the first quadrant, everywhere but in the third quadrant.
-const Polyline straight{{-far, 0}, {far, 0}}, right_angle{{0, far}, {0, 0}, {far, 0}}, re_entrant{{-far, 0}, {0, 0}, {0, -far}};
+const Polyline straight{{-far, 0}, {far, 0}}, right_angle{{0, far}, {0, 0}, {far, 0}},
+    re_entrant{{-far, 0}, {0, 0}, {0, -far}};
 
 std::vector<Point> water_of(const Polyline& wall) {
   if (&wall == &straight) return test::lattice(2, {-15, 15, 0, 15}, dx);
@@ -61,9 +62,11 @@ TEST_CASE("walls: Table 1.1, what is left with them") {
   const Point first{0.5 * dx, 0.5 * dx};
   const double lattice_bias = 2.43e-4;
   CHECK(deficiency(straight, first, WallKind::mvbp) == Approx(6.45e-4).margin(0.5e-6));
-  CHECK(deficiency(right_angle, first, WallKind::mvbp) == Approx(6.45e-4).margin(0.5e-6));  // 1.05e-3 without the two extra points
+  CHECK(deficiency(right_angle, first, WallKind::mvbp) ==
+        Approx(6.45e-4).margin(0.5e-6));  // 1.05e-3 without the two extra points
   CHECK(deficiency(re_entrant, first, WallKind::mvbp) == Approx(lattice_bias).margin(0.5e-6));
-  CHECK(deficiency(re_entrant, {0.5 * dx, -0.5 * dx}, WallKind::mvbp) == Approx(4.35e-2).margin(0.5e-4));  // its weak place
+  CHECK(deficiency(re_entrant, {0.5 * dx, -0.5 * dx}, WallKind::mvbp) ==
+        Approx(4.35e-2).margin(0.5e-4));  // its weak place
   CHECK(deficiency(straight, first, WallKind::vbp) == Approx(3.57e-3).margin(0.5e-5));
   CHECK(deficiency(right_angle, first, WallKind::vbp) == Approx(6.90e-3).margin(0.5e-5));
   CHECK(deficiency(re_entrant, first, WallKind::vbp) == Approx(lattice_bias).margin(0.5e-6));
@@ -73,10 +76,12 @@ TEST_CASE("walls: Table 1.1, what is left with them") {
 
 namespace {
 
-// Virtual masses copy the particle's own depth d: d = S + d missing, so that the lattice's bias shows 1/(1 - missing) times.
+// Virtual masses copy the particle's own depth d: d = S + d missing, so that the lattice's bias shows 1/(1 -
+// missing) times.
 void check_rows(const Polyline& wall, const Point& p) {
   const double missing = deficiency(wall, p, WallKind::none), bias = 2.43e-4;
-  const double real = missing < 1e-3 ? 0 : missing - bias;  // in the middle of the water nothing is missing but the bias
+  const double real =
+      missing < 1e-3 ? 0 : missing - bias;  // in the middle of the water nothing is missing but the bias
   CHECK(deficiency(wall, p, WallKind::image_rows) == Approx(bias / (1 - real)).margin(0.5e-6));
 }
 
@@ -94,8 +99,8 @@ TEST_CASE("walls: rows go on with the lattice in every row and corner") {
 
 namespace {
 
-// Rings dx apart inside a circle of radius 20 dx, each with as many particles of mass depth dx^2 as fit, wall points dx/2 apart;
-// |sum of m W / depth - 1| of the outermost ring's particle before a wall point.
+// Rings dx apart inside a circle of radius 20 dx, each with as many particles of mass depth dx^2 as fit, wall
+// points dx/2 apart; |sum of m W / depth - 1| of the outermost ring's particle before a wall point.
 double ring_deficiency(WallKind kind) {
   constexpr double pi = 3.14159265358979323846, radius = 20 * dx;
   std::vector<Grain> grains;
@@ -103,12 +108,17 @@ double ring_deficiency(WallKind kind) {
     const double r = radius - (ring + 0.5) * dx;
     const int count = static_cast<int>(std::lround(2 * pi * r / dx));
     for (int k = 0; k < count; ++k)
-      grains.push_back({{r * std::cos(2 * pi * k / count), r * std::sin(2 * pi * k / count)}, {0, 0}, depth * dx * dx, depth, 1.2 * dx});
+      grains.push_back({{r * std::cos(2 * pi * k / count), r * std::sin(2 * pi * k / count)},
+                        {0, 0},
+                        depth * dx * dx,
+                        depth,
+                        1.2 * dx});
   }
   Polyline circle;
   const int sides = static_cast<int>(std::lround(2 * pi * radius / (0.5 * dx)));
   for (int k = 0; k <= sides; ++k)
-    circle.push_back({radius * std::cos(2 * pi * (k % sides) / sides), radius * std::sin(2 * pi * (k % sides) / sides)});
+    circle.push_back(
+        {radius * std::cos(2 * pi * (k % sides) / sides), radius * std::sin(2 * pi * (k % sides) / sides)});
   Cloud<2> cloud(grains, dx);
   if (kind.felt) cloud.add_walls({circle}, {0, 0}, kind);
   cloud.solve(test::fixed_h());
@@ -133,9 +143,11 @@ TEST_CASE("walls: far from a wall nothing is added") {
 
 namespace {
 
-// Water whose lattice, mass and h are stretched by `stretch` against the spacing that the wall points were laid for.
+// Water whose lattice, mass and h are stretched by `stretch` against the spacing that the wall points were
+// laid for.
 double stretched_sum(double stretch) {
-  auto grains = test::still_water(2, test::lattice(2, {-12, 12, 0, 12}, stretch * dx), stretch * dx, depth, 1.2);
+  auto grains =
+      test::still_water(2, test::lattice(2, {-12, 12, 0, 12}, stretch * dx), stretch * dx, depth, 1.2);
   for (Grain& grain : grains) {
     grain.h0 = 1.2 * dx;
     grain.rho0 = depth * stretch * stretch;  // rho h^2 = kh at depth and stretched h
@@ -158,7 +170,8 @@ TEST_CASE("walls: virtual masses follow h0/h") {
     CAPTURE(stretch);
     CHECK(stretched_sum(stretch) == Approx(expected).margin(0.6e-3));  // its last digit
   }
-  // With few wall points in reach the sum depends on where they lie between the particles: 0.994 ... 1.002 along the wall.
+  // With few wall points in reach the sum depends on where they lie between the particles: 0.994 ... 1.002
+  // along the wall.
   CHECK(stretched_sum(0.7) == Approx(1.003).margin(9e-3));
 }
 
@@ -210,15 +223,17 @@ double rate_error(const Polyline& wall, double time) {
 }  // namespace
 
 TEST_CASE("walls: the rate is the change of the sums, but for the far images") {
-  // An image x_k = x_i - s (x_i - x_w) runs away from i at s v, the mirrored velocity says 2 v_n. For s = 2 that is right
-  // across the wall, and the part along it cancels between the wall points up to their sampling by dx/2; for s = 4, whose
-  // weight is a few 1e-3 (section 7), half is lost. Together 4 % of the largest rate; a wrong sign or factor makes 100 %.
+  // An image x_k = x_i - s (x_i - x_w) runs away from i at s v, the mirrored velocity says 2 v_n. For s = 2
+  // that is right across the wall, and the part along it cancels between the wall points up to their sampling
+  // by dx/2; for s = 4, whose weight is a few 1e-3 (section 7), half is lost. Together 4 % of the largest
+  // rate; a wrong sign or factor makes 100 %.
   CHECK(rate_error(straight, 1e-6) < 0.06);
 }
 
 namespace {
 
-// a = -t of a row of particles at this distance from a straight wall, in units of g depth/dx: positive away from the wall.
+// a = -t of a row of particles at this distance from a straight wall, in units of g depth/dx: positive away
+// from the wall.
 double push(double distance, WallKind kind) {
   auto grains = test::still_water(2, water_of(straight), dx, depth, 1.2);
   for (Grain& grain : grains)
@@ -241,7 +256,8 @@ TEST_CASE("walls: the pressure of still water balances at half a spacing and pus
     CHECK(push(0.3, kind) > 0.05);
     CHECK(push(0.7, kind) < -0.05);
   }
-  // The energy of a particle among virtual ones that depend on itself alone is least near half a spacing, not just there.
+  // The energy of a particle among virtual ones that depend on itself alone is least near half a spacing, not
+  // just there.
   CHECK(push(0.4, WallKind::mvbp) > 0.05);
   CHECK(push(0.6, WallKind::mvbp) < -0.05);
 }

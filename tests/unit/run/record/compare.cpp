@@ -52,7 +52,8 @@ class Held : public test::FakeMethod {
     const auto put = [&](const char* name, const std::vector<double>& values) {
       for (std::size_t k = 0; k < values.size(); ++k) f.real(name)(k) = values[k];
     };
-    put("x", fluid.x), put("u", fluid.u), put("depth", fluid.depth), put("mass", fluid.mass), put("h", fluid.h);
+    put("x", fluid.x), put("u", fluid.u), put("depth", fluid.depth), put("mass", fluid.mass),
+        put("h", fluid.h);
     if (scene.domain.dimension == 2) put("y", fluid.y), put("v", fluid.v);
     for (int i = 0; i < f.size(); ++i) f.integer("id")(i) = i;
   }
@@ -75,7 +76,7 @@ TEST_CASE("particle errors of a uniform offset") {
 
 TEST_CASE("the norms of the thesis are means over the particles that are wet in the exact solution") {
   Scene scene = half_wet_scene(1);
-  scene.gravity = 8;  // sqrt(g d_e) = 4 m/s
+  scene.gravity = 8;                         // sqrt(g d_e) = 4 m/s
   Fluid fluid = lattice(1, 0.01, 1.0, 2.2);  // the dry half does not count: no exact depth to divide by
   fluid.u.assign(fluid.size(), 0.4);
   fluid.v.assign(fluid.size(), -0.8);
@@ -103,7 +104,8 @@ TEST_CASE("errors count only where the scene wants them") {
   Scene all = scene;
   all.compare.where = {};
   const Held held(scene, fluid);
-  CHECK(grid_l2(scene, held, 0) < 0.5 * grid_l2(all, held, 0));  // errors of 0.1 against 0.1 and 0.5 in halves
+  CHECK(grid_l2(scene, held, 0) <
+        0.5 * grid_l2(all, held, 0));  // errors of 0.1 against 0.1 and 0.5 in halves
   scene.compare.where = [](double, double) { return 0.0; };
   CHECK(std::isnan(error_norms(scene, fluid, 0).depth_l2_rel));
 }
@@ -162,5 +164,6 @@ TEST_CASE("grid_l2 of the right answer is the smear of the water's edge alone") 
   // The edge is smeared over +-2h, errors below 1/2 of the depth: sqrt(4 h / 4 / 0.5) at most.
   CHECK(error(0.02) < std::sqrt(2 * 1.2 * 0.02));
   CHECK(error(0.01) < error(0.02));
-  CHECK(grid_l2(scene, Held(scene, lattice(1, 0.02, 0.5, 4.0)), 0) > 0.9);  // twice the depth is an error of 1
+  CHECK(grid_l2(scene, Held(scene, lattice(1, 0.02, 0.5, 4.0)), 0) >
+        0.9);  // twice the depth is an error of 1
 }

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "src/io/files.hpp"
+#include "src/run/observers.hpp"
 #include "src/run/record/gauges.hpp"
 #include "src/run/record/run_ups.hpp"
-#include "src/run/observers.hpp"
 #include "tests/support/run/fake_method.hpp"
 #include "tests/support/watch/scratch.hpp"
 

@@ -44,7 +44,8 @@ Transect diagonal() {
 TEST_CASE("a transect lists the points of its line and the error at the measured ones") {
   const test::Scratch scratch;
   Transect p = diagonal();
-  p.measured = Series{{-0.1, 0.25, 0.75, 1.1}, {9, 2.015 + 0.03, 2.045 - 0.04, 9}};  // the first and the last lie beyond the line
+  p.measured = Series{{-0.1, 0.25, 0.75, 1.1},
+                      {9, 2.015 + 0.03, 2.045 - 0.04, 9}};  // the first and the last lie beyond the line
   const Scene scene = scene_with(p);
   const Slope method(scene);
   TransectRecorder transects(scene, scratch.path());
@@ -59,7 +60,8 @@ TEST_CASE("a transect lists the points of its line and the error at the measured
   CHECK(result.max_abs_error == Approx(0.04).epsilon(1e-12));
   CHECK(result.measured_range == Approx(0.04).epsilon(1e-12));
   const std::string text = read_text(scratch / "profiles.csv");
-  CHECK(std::count(text.begin(), text.end(), '\n') == 1 + 3 + 2);  // header, 0, 0.5 and 1 m along the line, measured
+  CHECK(std::count(text.begin(), text.end(), '\n') ==
+        1 + 3 + 2);  // header, 0, 0.5 and 1 m along the line, measured
   CHECK(text.find("a,0.3,0.5,2.03,2,\n") != std::string::npos);
 }
 

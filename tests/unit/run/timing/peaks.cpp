@@ -15,7 +15,8 @@ TEST_CASE("peaks: multiply-adds reach what clock and width allow", "[alone]") {
   for (int n = 0; n < 20 && share < 0.7; ++n)
     share = std::max(share, multiply_add_rate(1) / (clock_rate() * allowed_multiply_adds()));
   INFO(instruction_set << " at " << 1e-9 * clock_rate() << " GHz");
-  // 0.7: loads, branches and a clock that changes between the two loops. Packs wider than the registers reached 0.06.
+  // 0.7: loads, branches and a clock that changes between the two loops. Packs wider than the registers
+  // reached 0.06.
   CHECK(share > 0.7);
   // Three units where two are counted, or cores whose 64 bytes are not two halves: twice, never three times.
   CHECK(share < 3);

@@ -14,10 +14,13 @@ using namespace freshet;
 
 namespace {
 
-void wait(double milliseconds) { std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(milliseconds)); }
+void wait(double milliseconds) {
+  std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(milliseconds));
+}
 
 void launch(const char* label, double milliseconds) {
-  Kokkos::parallel_for(label, Range(0, 1), KOKKOS_LAMBDA(int) { wait(milliseconds); });
+  Kokkos::parallel_for(
+      label, Range(0, 1), KOKKOS_LAMBDA(int) { wait(milliseconds); });
 }
 
 const PassProfile& pass(const RunProfile& profile, const std::string& label) {
@@ -44,10 +47,10 @@ TEST_CASE("launches and regions are timed by label") {
   launch("before", 1);
   times.clear();
   {
-    const Region outer("outer");
+    const TimedRegion outer("outer");
     launch("a", 3);
     wait(2);
-    const Region inner("inner");
+    const TimedRegion inner("inner");
     launch("a", 3);
     launch("b", 1);
   }
@@ -150,8 +153,10 @@ TEST_CASE("a profile of a scene that ends early counts the steps that there were
 TEST_CASE("a profile as a table and as JSON") {
   RunProfile p;
   p.scene = "pond", p.method = "sph-swe", p.backend = "Serial", p.registers = "AVX2", p.threads = 1;
-  p.first_step = 20, p.steps = 10, p.particle_steps = 1e4, p.wall = 2e-3, p.simulated = 0.1, p.newton_mean = 1.25, p.newton_max = 3;
-  p.step = 1.5e-3, p.launched_in_step = 1.4e-3, p.launched = 1.4e-3, p.output_every = 0.5, p.per_output = 1e-3;
+  p.first_step = 20, p.steps = 10, p.particle_steps = 1e4, p.wall = 2e-3, p.simulated = 0.1,
+  p.newton_mean = 1.25, p.newton_max = 3;
+  p.step = 1.5e-3, p.launched_in_step = 1.4e-3, p.launched = 1.4e-3, p.output_every = 0.5,
+  p.per_output = 1e-3;
   p.peaks = {1e11, 1e10};
   p.passes = {{"swe::force", 10, 1e-3, {1e4, 2e5, 4e5, 4e7, 1e6}}, {"nobody's", 2, 1e-4, {}}};
   const std::string lines = table(p), text = json(p);
@@ -161,9 +166,12 @@ TEST_CASE("a profile as a table and as JSON") {
   CHECK(lines.find("built for") == std::string::npos);  // nothing better to be had
   p.better = "this machine has AVX-512: a build uses it";
   CHECK_THAT(table(p), Contains("built for AVX2, while this machine has AVX-512: a build uses it\n"));
-  // 1e-3 s of 2e-3 s; 1e4 particles, 2e5 pairs and 4e7 operations in 1e-3 s; 40 of 100 GFLOP/s is nearer to its roof than 1 of 10 GB/s
-  CHECK_THAT(lines, Contains("swe::force                      10    0.001  50.0     100.0   100.00      10     200       40      1     40"));
-  CHECK_THAT(lines, Contains("nobody's                         2    0.000   5.0      50.0    10.00       -       -        -      -      -"));
+  // 1e-3 s of 2e-3 s; 1e4 particles, 2e5 pairs and 4e7 operations in 1e-3 s; 40 of 100 GFLOP/s is nearer to
+  // its roof than 1 of 10 GB/s
+  CHECK_THAT(lines, Contains("swe::force                      10    0.001  50.0     100.0   100.00      10   "
+                             "  200       40      1     40"));
+  CHECK_THAT(lines, Contains("nobody's                         2    0.000   5.0      50.0    10.00       -   "
+                             "    -        -      -      -"));
   CHECK_THAT(lines, Contains("5.000 million particle-steps/s"));
   // 0.02 s of work for a simulated second: 0.01 s from output to output, which takes 0.001 s
   CHECK(p.output_share() == Approx(1.0 / 11));

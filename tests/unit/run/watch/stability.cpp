@@ -8,8 +8,10 @@ using namespace freshet;
 
 namespace {
 
-// So many steps of 0.01 s from step `from` on, each with these iterations and so many lists made again per step.
-void steps(StabilityWatch& watch, StepReport& report, long from, long count, double iterations, double rebuilds) {
+// So many steps of 0.01 s from step `from` on, each with these iterations and so many lists made again per
+// step.
+void steps(StabilityWatch& watch, StepReport& report, long from, long count, double iterations,
+           double rebuilds) {
   for (long n = 1; n <= count; ++n) {
     report.newton_mean = iterations;
     report.rebuilds = static_cast<long>(rebuilds * static_cast<double>(from + n));
@@ -26,14 +28,17 @@ TEST_CASE("stability: a run at ease has no warning") {
   CHECK(watch.warnings(report).empty());
 }
 
-TEST_CASE("stability: iterations above three, and lists outgrown in a tenth of the steps, are named with when and how much") {
+TEST_CASE(
+    "stability: iterations above three, and lists outgrown in a tenth of the steps, are named with when and "
+    "how much") {
   StabilityWatch watch;
   StepReport report;
   steps(watch, report, 0, 3000, 1.2, 0);
   steps(watch, report, 3000, 1000, 3.5, 0);
   steps(watch, report, 4000, 1000, 1.2, 0);
   REQUIRE(watch.warnings(report).size() == 1);
-  CHECK_THAT(watch.warnings(report)[0], Catch::Contains("the density iteration laboured in 1 of 5 spans of 1000 steps"));
+  CHECK_THAT(watch.warnings(report)[0],
+             Catch::Contains("the density iteration laboured in 1 of 5 spans of 1000 steps"));
   CHECK_THAT(watch.warnings(report)[0], Catch::Contains("first after t = 30 s: up to 3.5 per step, limit 3"));
   StabilityWatch outgrown;
   steps(outgrown, report = {}, 0, 2000, 1.2, 0.2);
@@ -81,7 +86,9 @@ TEST_CASE("stability: energy that grows in a closed basin is named, with the tim
   CHECK(watch.warnings().empty());
   watch.record(at(2, 8.2), {2, 200});
   REQUIRE(watch.warnings().size() == 1);
-  CHECK_THAT(watch.warnings()[0], Catch::Contains("up to 0.2 m5/s2 per unit density, largest kinetic energy 2; first noticed at t = 2 s"));
+  CHECK_THAT(watch.warnings()[0],
+             Catch::Contains(
+                 "up to 0.2 m5/s2 per unit density, largest kinetic energy 2; first noticed at t = 2 s"));
   Values values;
   watch.save(values);
   EnergyWatch again(Scene{});

@@ -117,7 +117,6 @@ TEST_CASE("Measured rows are sorted, repeated times and gaps left out, each with
   CHECK(scene.gauges[0].measured->t == std::vector<double>{0, 1, 2});
   CHECK(scene.gauges[0].measured->value[1] == Approx(0.15));
   CHECK(scene.gauges[0].measured->value[2] == Approx(0.20));  // the first of the repeated ones
-  CHECK(scene.notes == std::vector<std::string>{"g.csv: 1 row without numbers left out",
-                                                "g.csv: rows sorted",
+  CHECK(scene.notes == std::vector<std::string>{"g.csv: 1 row without numbers left out", "g.csv: rows sorted",
                                                 "g.csv: 1 row with a repeated time or place left out"});
 }

@@ -66,11 +66,13 @@ TEST_CASE("Case thacker_radial") {
 }
 
 TEST_CASE("Cases dam_break_radial and dam_break_radial_dry") {
-  const Scene wet = read_scene(cases + "dam_break_radial.toml"), dry = read_scene(cases + "dam_break_radial_dry.toml");
+  const Scene wet = read_scene(cases + "dam_break_radial.toml"),
+              dry = read_scene(cases + "dam_break_radial_dry.toml");
   CHECK(wet_cells(dry) == 5024);  // the thesis: 5000
   CHECK(wet.water.depth(70, 70) == 10);
   CHECK(wet.water.depth(71, 71) == 5);
-  CHECK(wet.compare.exact->at(600, 0, 50).depth == Approx(5).epsilon(1e-9));  // the walls have not been reached
+  CHECK(wet.compare.exact->at(600, 0, 50).depth ==
+        Approx(5).epsilon(1e-9));  // the walls have not been reached
   CHECK(wet.compare.where(639, 0) != 0);
   CHECK(wet.compare.where(460, 460) == 0);
   CHECK(wet.compare.times == dry.compare.times);

@@ -12,7 +12,9 @@ namespace {
 
 const std::string canal = "[domain]\nbox = [0, 10]\n[water]\nsurface = 1\nspacing = 0.5\n[time]\nend = 10\n";
 
-bool says(const test::Failure& failed, const std::string& words) { return failed.text.find(words) != std::string::npos; }
+bool says(const test::Failure& failed, const std::string& words) {
+  return failed.text.find(words) != std::string::npos;
+}
 
 }  // namespace
 
@@ -22,9 +24,9 @@ TEST_CASE("Splitting and merging are off unless they are named") {
 }
 
 TEST_CASE("Areas, regions and defaults of splitting and merging") {
-  const Scene scene = read_text(pond(
-      "[split]\narea = 2.0\n[[split.region]]\nbox = [1, 0, 3, 2]\narea = 0.9\n[[split.region]]\n"
-      "polygon = [[0, 0], [1, 0], [0, 1]]\narea = 3\n[merge]\narea = 0.4\nrelax = 5\n"));
+  const Scene scene = read_text(
+      pond("[split]\narea = 2.0\n[[split.region]]\nbox = [1, 0, 3, 2]\narea = 0.9\n[[split.region]]\n"
+           "polygon = [[0, 0], [1, 0], [0, 1]]\narea = 3\n[merge]\narea = 0.4\nrelax = 5\n"));
   REQUIRE(scene.split);
   CHECK(*scene.split->area.elsewhere == 2);
   REQUIRE(scene.split->area.regions.size() == 2);
@@ -39,8 +41,9 @@ TEST_CASE("Areas, regions and defaults of splitting and merging") {
   const Scene line = read_text(canal + "[split]\narea = 2\ninto = 2\n");
   CHECK(line.split->into == 2);
   CHECK(line.split->eps == 0.25);
-  CHECK(read_text(canal + "[split]\n[[split.region]]\nbox = [2, 4]\narea = 1\n").split->area.regions[0].corners ==
-        std::vector<Point>{{2, 0}, {4, 0}});
+  CHECK(read_text(canal + "[split]\n[[split.region]]\nbox = [2, 4]\narea = 1\n")
+            .split->area.regions[0]
+            .corners == std::vector<Point>{{2, 0}, {4, 0}});
 }
 
 TEST_CASE("Splitting that cannot be done is an error that says what to write") {
@@ -48,6 +51,7 @@ TEST_CASE("Splitting that cannot be done is an error that says what to write") {
   CHECK(says(failure(pond("[split]\narea = 2\ninto = 3\n")), "7 in 2-D"));
   CHECK(says(failure(canal + "[split]\narea = 2\ninto = 7\n"), "between 2 and 3"));
   CHECK(says(failure(pond("[split]\n[[split.region]]\nbox = [3, 0, 1, 2]\narea = 1\n")), "low corner first"));
-  CHECK(says(failure(canal + "[split]\n[[split.region]]\npolygon = [[0, 0], [1, 0], [0, 1]]\narea = 1\n"), "no polygons"));
+  CHECK(says(failure(canal + "[split]\n[[split.region]]\npolygon = [[0, 0], [1, 0], [0, 1]]\narea = 1\n"),
+             "no polygons"));
   CHECK(says(failure(pond("[split]\n[[split.region]]\narea = 1\n")), "polygon"));
 }

@@ -14,11 +14,14 @@ using freshet::test::read_text;
 namespace {
 
 Scene tank(const std::string& walls) {
-  return read_text("[domain]\nbox = [0, 0, 4, 4]\n[water]\nsurface = 1\nspacing = 0.1\n[time]\nend = 1\n" + walls);
+  return read_text("[domain]\nbox = [0, 0, 4, 4]\n[water]\nsurface = 1\nspacing = 0.1\n[time]\nend = 1\n" +
+                   walls);
 }
 
 std::string fault(const std::string& walls) {
-  return failure("[domain]\nbox = [0, 0, 4, 4]\n[water]\nsurface = 1\nspacing = 0.1\n[time]\nend = 1\n" + walls).text;
+  return failure("[domain]\nbox = [0, 0, 4, 4]\n[water]\nsurface = 1\nspacing = 0.1\n[time]\nend = 1\n" +
+                 walls)
+      .text;
 }
 
 bool says(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
@@ -45,15 +48,17 @@ TEST_CASE("Closed walls are turned so that the water is on their left") {
 TEST_CASE("A circle has the area that it is named with") {
   const Scene scene = tank("[[wall]]\ncircle = { centre = [2, 2], radius = 1.5 }\nwater = \"inside\"\n");
   CHECK(signed_area(scene.walls[0].line) == Approx(std::acos(-1.0) * 2.25).epsilon(1e-12));
-  for (const Point& p : scene.walls[0].line) CHECK(std::hypot(p[0] - 2, p[1] - 2) == Approx(1.5).epsilon(1e-3));
+  for (const Point& p : scene.walls[0].line)
+    CHECK(std::hypot(p[0] - 2, p[1] - 2) == Approx(1.5).epsilon(1e-3));
 }
 
 TEST_CASE("Water starts on the wet side of closed walls, cut cells with their part of the area") {
   const std::string circle = "[[wall]]\ncircle = { centre = [2, 2], radius = 1.5 }\nwater = \"inside\"\n";
-  const std::string hole = "[[wall]]\npolygon = [[1.5, 1.5], [2.5, 1.5], [2.5, 2.5], [1.5, 2.5]]\nwater = \"outside\"\n";
+  const std::string hole =
+      "[[wall]]\npolygon = [[1.5, 1.5], [2.5, 1.5], [2.5, 2.5], [1.5, 2.5]]\nwater = \"outside\"\n";
   const double disc = std::acos(-1.0) * 2.25;
-  // Slivers below a quarter of a cell are left out: on average 1/32 of each cell along the wall, 94 dx long: 0.03 m2; and the
-  // parts are counted in hundredths.
+  // Slivers below a quarter of a cell are left out: on average 1/32 of each cell along the wall, 94 dx long:
+  // 0.03 m2; and the parts are counted in hundredths.
   CHECK(water_area(tank(circle)) == Approx(disc).margin(0.04));
   CHECK(water_area(tank(circle + hole)) == Approx(disc - 1).margin(0.04));
   for (const Placed& p : place(tank(circle + hole), [](double, double) { return 1.0; })) {
@@ -68,16 +73,19 @@ TEST_CASE("A wall that does not close is told with its gap") {
   CHECK(says(open.notes[0], "0.25 m from the next wall"));
   const Scene closed = tank("[[wall]]\nline = [[0, 0], [4, 0], [4, 4], [0, 4], [0, 0]]\n");
   CHECK(closed.notes.empty());
-  const Scene joined = tank("[[wall]]\nline = [[0, 0], [4, 0], [4, 4]]\n[[wall]]\nline = [[4, 4], [0, 4], [0, 0]]\n");
+  const Scene joined =
+      tank("[[wall]]\nline = [[0, 0], [4, 0], [4, 4]]\n[[wall]]\nline = [[4, 4], [0, 4], [0, 0]]\n");
   CHECK(joined.notes.empty());
 }
 
 TEST_CASE("Walls and [sph] settings that cannot be are errors that say what to do") {
-  CHECK(says(fault("[[wall]]\npolygon = [[0, 0], [1, 1], [1, 0], [0, 1]]\nwater = \"inside\"\n"), "crosses itself"));
+  CHECK(says(fault("[[wall]]\npolygon = [[0, 0], [1, 1], [1, 0], [0, 1]]\nwater = \"inside\"\n"),
+             "crosses itself"));
   CHECK(says(fault("[[wall]]\npolygon = [[0, 0], [1, 1]]\nwater = \"inside\"\n"), "at least 3 points"));
   CHECK(says(fault("[[wall]]\npolygon = [[0, 0], [1, 0], [0, 1]]\n"), "water' is missing"));
   CHECK(says(fault("[[wall]]\nline = [[0, 0], [1, 0], [1, 0]]\n"), "repeats the one before it"));
-  CHECK(says(fault("[[wall]]\nline = [[0, 0], [1, 0]]\n[sph]\nwalls = \"mirror\"\nslip = false\n"), "cannot hold"));
+  CHECK(says(fault("[[wall]]\nline = [[0, 0], [1, 0]]\n[sph]\nwalls = \"mirror\"\nslip = false\n"),
+             "cannot hold"));
   CHECK(says(fault("[sisph]\nslip = false\n"), "slips along any wall"));
   CHECK(says(fault("[sph]\nstabilise = \"two-shock\"\nstrength = 0.5\n"), "strength"));
   CHECK(says(fault("[sph]\nviscosity = [1, 0]\n"), "viscosity"));

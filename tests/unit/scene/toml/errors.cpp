@@ -53,7 +53,8 @@ TEST_CASE("Unknown tables and unknown keys of inline tables are errors too") {
 
 TEST_CASE("An unknown value of a choice is an error that names the value meant") {
   check_error(pond("[sph]\nstabilise = \"lax-friedrich\"\n"),
-              "scene.toml:9:13: error: 'sph.stabilise' is 'lax-friedrich'; it must be one of 'none', 'artificial-viscosity', "
+              "scene.toml:9:13: error: 'sph.stabilise' is 'lax-friedrich'; it must be one of 'none', "
+              "'artificial-viscosity', "
               "'lax-friedrichs' or 'two-shock'\n"
               "  stabilise = \"lax-friedrich\"\n"
               "              ^\n"
@@ -86,15 +87,18 @@ TEST_CASE("output.fields knows the fields of the scene's method and dimension") 
   CHECK(scene.output.fields == std::vector<std::string>{"depth", "u", "h", "mass", "bed"});
   CHECK(read_text(scene.text).output.fields == scene.output.fields);
   CHECK_FALSE(read_text(pond()).output.fields);
-  check_error(pond("[output]\nfields = [\"depth\", \"mas\"]\n"),
-              "scene.toml:9:20: error: 'output.fields' holds 'mas'; wanted: 'z', 'depth', 'u', 'v', 'mass', 'h', "
-              "'bed' or 'size'\n"
-              "  fields = [\"depth\", \"mas\"]\n"
-              "                     ^\n"
-              "  help: did you mean 'mass'?");
-  const std::string channel = "[domain]\nbox = [0, 10]\n[water]\ndepth = 1\nspacing = 0.5\n[time]\nend = 10\n";
-  CHECK_THAT(failure(channel + "[output]\nfields = [\"v\"]\n").text,
-             Catch::Contains("'output.fields' holds 'v'; wanted: 'z', 'depth', 'u', 'mass', 'h', 'bed' or 'size'"));
+  check_error(
+      pond("[output]\nfields = [\"depth\", \"mas\"]\n"),
+      "scene.toml:9:20: error: 'output.fields' holds 'mas'; wanted: 'z', 'depth', 'u', 'v', 'mass', 'h', "
+      "'bed' or 'size'\n"
+      "  fields = [\"depth\", \"mas\"]\n"
+      "                     ^\n"
+      "  help: did you mean 'mass'?");
+  const std::string channel =
+      "[domain]\nbox = [0, 10]\n[water]\ndepth = 1\nspacing = 0.5\n[time]\nend = 10\n";
+  CHECK_THAT(
+      failure(channel + "[output]\nfields = [\"v\"]\n").text,
+      Catch::Contains("'output.fields' holds 'v'; wanted: 'z', 'depth', 'u', 'mass', 'h', 'bed' or 'size'"));
 }
 
 TEST_CASE("A number out of its range is an error") {
@@ -217,16 +221,18 @@ TEST_CASE("A bed that is not a number somewhere is an error that says where") {
 }
 
 TEST_CASE("A boundary whose water lies outside the domain is the wrong way round") {
-  check_error(pond("[[boundary]]\ntype = \"transmissive\"\nline = [[2, 5], [3, 5]]\n"),
-              "scene.toml:10:8: error: the left of 'boundary.0.line', where its water is, lies outside the domain\n"
-              "  line = [[2, 5], [3, 5]]\n"
-              "         ^\n"
-              "  help: reverse its points");
+  check_error(
+      pond("[[boundary]]\ntype = \"transmissive\"\nline = [[2, 5], [3, 5]]\n"),
+      "scene.toml:10:8: error: the left of 'boundary.0.line', where its water is, lies outside the domain\n"
+      "  line = [[2, 5], [3, 5]]\n"
+      "         ^\n"
+      "  help: reverse its points");
   CHECK(failure(pond("[[boundary]]\ntype = \"transmissive\"\nline = [[3, 5], [2, 5]]\n")).text == "");
 }
 
 TEST_CASE("A negative depth is an error, a level below zero is not") {
-  const std::string rest = "spacing = 0.5\n[time]\nend = 10\n", box = "[domain]\nbox = [0, 0, 10, 5]\n[water]\n";
+  const std::string rest = "spacing = 0.5\n[time]\nend = 10\n",
+                    box = "[domain]\nbox = [0, 0, 10, 5]\n[water]\n";
   check_error(box + "depth = -0.5\n" + rest,
               "scene.toml:4:9: error: 'water.depth' is -0.5; it must be at least 0\n"
               "  depth = -0.5\n"
@@ -238,13 +244,15 @@ TEST_CASE("A negative depth is an error, a level below zero is not") {
 
 TEST_CASE("More particles than the memory holds are refused, with the spacing that would do") {
   const Scene scene = test::read_text(pond(), {"water.spacing=1e-4"});
-  CHECK_THROWS_WITH(place(scene, scene.water.depth), Catch::Contains("this machine's memory does not hold") &&
-                                                         Catch::Contains("a larger water.spacing than 0.0001 m"));
+  CHECK_THROWS_WITH(place(scene, scene.water.depth),
+                    Catch::Contains("this machine's memory does not hold") &&
+                        Catch::Contains("a larger water.spacing than 0.0001 m"));
 }
 
 TEST_CASE("A raster of billions of cells is refused") {
   const std::string text = failure(pond("[raster]\nspacing = 1e-4\nwhat = [\"depth\"]\n")).text;
-  CHECK_THAT(text, Catch::StartsWith("scene.toml:9:11: error: a raster of cells of 0.0001 m has 5000 million; at most"));
+  CHECK_THAT(text, Catch::StartsWith(
+                       "scene.toml:9:11: error: a raster of cells of 0.0001 m has 5000 million; at most"));
 }
 
 TEST_CASE("Periods need a periodic exact solution") {
