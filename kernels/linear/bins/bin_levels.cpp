@@ -1,4 +1,5 @@
 // BinMultigrid: how the levels are made.
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -81,29 +82,6 @@ void invert_diagonal(const BinLevel& level) {
                                         ? 1 / d
                                         : 1 / level.weight(k);  // rows near zero are not smoothed by them
       });
-}
-
-// In place, by Gauss and Jordan with row exchanges. A column without a pivot counts as solved by zero.
-template <class View>
-void invert(const View& m, int n) {
-  std::vector<int> from(static_cast<std::size_t>(n));
-  for (int k = 0; k < n; ++k) {
-    int best = k;
-    for (int i = k + 1; i < n; ++i) best = std::abs(m(i, k)) > std::abs(m(best, k)) ? i : best;
-    from[static_cast<std::size_t>(k)] = best;
-    for (int j = 0; j < n && best != k; ++j) std::swap(m(k, j), m(best, j));
-    const double pivot = m(k, k), inverse = std::abs(pivot) > 1e-12 ? 1 / pivot : 0;
-    m(k, k) = 1;
-    for (int j = 0; j < n; ++j) m(k, j) *= inverse;
-    for (int i = 0; i < n; ++i) {
-      const double factor = i == k ? 0 : m(i, k);
-      if (factor == 0) continue;
-      m(i, k) = 0;
-      for (int j = 0; j < n; ++j) m(i, j) -= factor * m(k, j);
-    }
-  }
-  for (int k = n - 1; k >= 0; --k)
-    for (int i = 0; i < n; ++i) std::swap(m(i, k), m(i, from[static_cast<std::size_t>(k)]));
 }
 
 }  // namespace
@@ -244,15 +222,17 @@ void BinMultigrid::invert_last(bool singular) {
   const int n = last.size;
   if (inverse_.extent_int(0) < n)
     inverse_ = Table("multigrid.inverse", static_cast<size_t>(n), static_cast<size_t>(n));
-  const auto dense = Kokkos::create_mirror_view(inverse_);
-  double members = 0;
-  for (int k = 0; k < n; ++k) members += weight(k);
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) dense(i, j) = singular ? weight(i) * weight(j) / members : 0;
+  const Eigen::Map<const Eigen::VectorXd> shares(weight.data(), n);
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
+  if (singular) dense = shares * shares.transpose() / shares.sum();
+  for (int i = 0; i < n; ++i)
     for (int s = 0; s < last.width(); ++s) dense(i, column(i, s)) += a(i, s);
-  }
-  invert(dense, n);
-  Kokkos::deep_copy(inverse_, dense);
+  // The pseudo-inverse: what the matrix does not determine is zero.
+  dense = Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(dense).pseudoInverse().eval();
+  const auto inverse = Kokkos::create_mirror_view(inverse_);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) inverse(i, j) = dense(i, j);
+  Kokkos::deep_copy(inverse_, inverse);
 }
 
 }  // namespace freshet::linear
