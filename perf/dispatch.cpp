@@ -34,8 +34,8 @@ using namespace freshet;
 namespace {
 
 constexpr int turns = 9, steps = 10;
-constexpr double slow =
-    0.05;  // x the stable time step: the water hardly spreads, whose thin edges would cost by their length
+// x the stable time step: the water hardly spreads, whose thin edges would cost by their length
+constexpr double slow = 0.05;
 constexpr double margin = 0.05;  // of lists, as the solver's
 
 // Shallow water at rest on a square of cells of 1 m, in a domain of `wider` times its width; `split`: half of

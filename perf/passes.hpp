@@ -64,11 +64,11 @@ class PassList {
   std::vector<Pass> with_matrix() const {
     return {{"matvec", none(), [w = w_] { w->multiply(); },
              [w = w_] {
-      Work work = work_of(matvec_cost, w->size());
-      work.flops += matvec_cost.pair_flops * w->entries();
-      work.bytes += matvec_bytes_per_entry * w->entries();
-      work.listed = work.pairs = w->entries();
-      return work;
+               Work work = work_of(matvec_cost, w->size());
+               work.flops += matvec_cost.pair_flops * w->entries();
+               work.bytes += matvec_bytes_per_entry * w->entries();
+               work.listed = work.pairs = w->entries();
+               return work;
              }}};
   }
 
@@ -96,9 +96,9 @@ class PassList {
   Pass sort() const {
     return {"sort", [w = w_] { w->stir(); }, [w = w_] { w->sort(); },
             [w = w_] {
-      const double n = w->size();
-      return add(add(add(work_of(extent_cost, n), work_of(count_cost, n)), work_of(place_cost, n)),
-                 work_of(permute_cost, n), 10);
+              const double n = w->size();
+              return add(add(add(work_of(extent_cost, n), work_of(count_cost, n)), work_of(place_cost, n)),
+                         work_of(permute_cost, n), 10);
             }};
   }
   Pass list() const {
@@ -109,9 +109,9 @@ class PassList {
     const auto mean = std::make_shared<double>(1);
     return {name, [w = w_] { w->disturb_density(); }, [w = w_, mean] { *mean = w->density().newton_mean; },
             [first = walk(swe::density_gradient_cost), again = walk(swe::density_again_cost), mean] {
-      Work work = first();
-      work.flops += (*mean - 1) * again().flops;
-      return work;
+              Work work = first();
+              work.flops += (*mean - 1) * again().flops;
+              return work;
             }};
   }
   Pass force(const std::string& name, const swe::AnyStabilisation& s) const {

@@ -93,11 +93,10 @@ void add_benchmarks(Pool& pool, Arrangement arrangement, int n, const std::strin
   }();
   for (std::size_t k = 0; k < names.size(); ++k) {
     const std::string name = names[k] + "/" + name_of(arrangement) + "/" + std::to_string(n);
-    benchmark::RegisterBenchmark(
-        name.c_str(),
-        [&pool, arrangement, n, extra, k](benchmark::State& state) {
-      time_pass(state, passes_of(pool.get(arrangement, n, extra), extra)[k]);
-        })
+    benchmark::RegisterBenchmark(name.c_str(),
+                                 [&pool, arrangement, n, extra, k](benchmark::State& state) {
+                                   time_pass(state, passes_of(pool.get(arrangement, n, extra), extra)[k]);
+                                 })
         ->UseManualTime()
         ->Unit(benchmark::kMicrosecond);
   }

@@ -60,8 +60,8 @@ double steepest_step(const std::vector<double>& c, int nx, int ny) {
 template <int D>
 BedSpline<D>::BedSpline(const std::function<double(double, double)>& level, const Lattice& lattice)
     : inv_spacing_(1 / lattice.spacing) {
-  constexpr int margin =
-      12;  // nodes: wide enough for buffers outside the domain and for the ends to be forgotten
+  // nodes: wide enough for buffers outside the domain and for the ends to be forgotten
+  constexpr int margin = 12;
   const auto nodes = [&](int k) {
     return static_cast<int>(std::ceil((lattice.high[k] - lattice.low[k]) / lattice.spacing - 1e-9)) + 1 +
            2 * margin;

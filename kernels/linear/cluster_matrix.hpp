@@ -101,8 +101,8 @@ struct ClusterMatrix {
     for (int k = 0; k < n; ++k) most = larger(most, larger(entry(c, k), -entry(c, k)));
     const Lane step = (1.0 / 32767) * most, per_step = 32767.0 / most;
     for (int k = 0; k < n; ++k) {
-      const LaneIndex whole =
-          to_index(entry(c, k) * per_step + Lane(32768.5)) - LaneIndex(32768);  // cut where positive: rounded
+      // cut where positive: rounded
+      const LaneIndex whole = to_index(entry(c, k) * per_step + Lane(32768.5)) - LaneIndex(32768);
       store_short(&rough(start(c) + k, 0), whole);
       lost += entry(c, k) - step * to_real(whole);
     }

@@ -11,8 +11,8 @@ namespace freshet::swe {
 
 struct Friction {
   double gravity, manning;  // m/s2, s/m^(1/3)
-  NearestTable roughness2 =
-      {};  // n^2 [s2/m^(2/3)] by place; empty: `manning` everywhere, nothing is looked up
+  // n^2 [s2/m^(2/3)] by place; empty: `manning` everywhere, nothing is looked up
+  NearestTable roughness2 = {};
 
   // K = g n^2 / d^(4/3) [1/m]: deceleration K |v| v (corrected (2.47)).
   template <class V>

@@ -39,8 +39,8 @@ struct Cover {
 };
 
 constexpr double edge_cover = 0.5;  // less than this is no water: the cell is blank
-constexpr double inner_cover =
-    0.95;  // from here on a depth is the Shepard mean where the edge may be smeared
+// from here on a depth is the Shepard mean where the edge may be smeared
+constexpr double inner_cover = 0.95;
 
 // The Shepard mean of the depth inside, falling to zero beyond the edge: for norms over wet and dry [m].
 KOKKOS_INLINE_FUNCTION double smeared_depth(double cover, double depth_sum) {

@@ -17,13 +17,13 @@ namespace freshet {
 // Water volumes; 1-D scenes have unit width.
 struct Totals {
   double mass = 0;  // m3, fluid particles only
-  double inflow =
-      0;  // m3 entered through open boundaries since t = 0 (particles counted as they cross the line)
+  // m3 entered through open boundaries since t = 0 (particles counted as they cross the line)
+  double inflow = 0;
   double outflow = 0;  // m3 left
   double flux = 0;  // m3, time integral of depth x inward normal velocity along the open lines; NaN: unknown
   double flux_gross = 0;  // m3, the same with |normal velocity|
-  double straddle =
-      0;  // m3, change since t = 0 of the part of particles' footprints that lies across the line
+  // m3, change since t = 0 of the part of particles' footprints that lies across the line
+  double straddle = 0;
 };
 
 // Momentum and energy of the fluid per unit density of water.

@@ -144,14 +144,14 @@ struct Sph {
   swe::AnyStabilisation stabilisation = swe::LaxFriedrichsMuscl{};
   Acceleration acceleration = Acceleration::variational;
   double newton_tolerance = 1e-5;  // of the relative density residual
-  double h_floor =
-      0.8;  // x h0; the reader's default is 1.6^(-1/D): what a density 1.6 times the initial one gives
+  // x h0; the reader's default is 1.6^(-1/D): what a density 1.6 times the initial one gives
+  double h_floor = 0.8;
   double h_cap = 3.0;  // x h0
   WallKind walls = WallKind::automatic;
   bool slip = true;    // walls; false: they also hold the tangential velocity back
   bool mixed = false;  // pairs in single precision, what is made of their sums in double
-  bool well_balanced =
-      false;  // still water over any bed stays at rest to round-off (kernels/swe/force/well_balanced.hpp)
+  // still water over any bed stays at rest to round-off (kernels/swe/force/well_balanced.hpp)
+  bool well_balanced = false;
 };
 
 // The semi-implicit method.
@@ -166,10 +166,10 @@ struct Sisph {
   int picard = 2;
   sisph::MomentumForm momentum;
   bool closure = true;  // pair areas closed: sum_j A_ij n_ij = 0
-  bool exact_slopes =
-      true;  // for linear fields (Krongauz and Belytschko); false: normalised by Shepard's sum alone
-  bool recomputed =
-      false;  // at rest: the coefficients a_ij of the free surface's matrix, in every product, not kept
+  // for linear fields (Krongauz and Belytschko); false: normalised by Shepard's sum alone
+  bool exact_slopes = true;
+  // at rest: the coefficients a_ij of the free surface's matrix, in every product, not kept
+  bool recomputed = false;
   bool moving = false;  // L: particles move with the water, one mass each; E: they are at rest, wet or dry
   sisph::ParticlePath path;  // moving
   double jump = 0.25;        // moving: |v_i - v_j| dt / dx of neighbours at most
@@ -222,8 +222,8 @@ struct Fpm {
   double support = 3.2;   // h0 / dx
   double hole = 0.8;      // x dx: an empty circle larger than this gets a point
   Function grading;       // x dx, the spacing by place: 1 to 4; absent = 1 everywhere
-  bool by_neighbours =
-      false;  // each point's support from the number of its neighbours, `support` being that of a lattice
+  // each point's support from the number of its neighbours, `support` being that of a lattice
+  bool by_neighbours = false;
   fpm::PressureScheme scheme;
   bool implicit_viscosity = false;  // it does not limit the step then
   bool slip = true;                 // walls; false: they also hold the tangential velocity
@@ -257,8 +257,8 @@ struct Rasters {
   double spacing = 0;  // m, of the cells
   double every = 0;    // s (0 = first and last state only)
   std::vector<Quantity> what;
-  bool maxima =
-      false;  // largest depth, speed and their product, arrival and last wetness, looked at in every step
+  // largest depth, speed and their product, arrival and last wetness, looked at in every step
+  bool maxima = false;
   double arrival = 0.01;  // m, a cell is reached where the depth exceeds it
 };
 

@@ -19,8 +19,8 @@ struct WallKind {
   bool rows = false;    // rows of points behind the wall, else points on its face, ...
   bool corners = true;  // ... two more of them in each corner
   Stretch stretch{1, {1, 1}};
-  bool by_corners =
-      false;  // images where every corner of the walls is a right one with the water inside, else rows
+  // images where every corner of the walls is a right one with the water inside, else rows
+  bool by_corners = false;
   bool can_hold() const { return felt && !mirror; }  // the tangential velocity, too
   const WallKind& resolved(bool only_right_corners) const {
     return !by_corners ? *this : only_right_corners ? images : image_rows;

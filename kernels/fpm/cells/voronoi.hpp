@@ -70,10 +70,11 @@ KOKKOS_INLINE_FUNCTION void cut_walls(Cell& cell, const TankView& tank, const Ve
   const double reach = 1.5 * half;  // beyond the corners of the square
   tank.bins.for_each(box_around(p, 1.5 * reach),
                      [&](int k) {  // a side bounds beyond its end, too: farther than reach by sqrt(2)
-    const Side& s = tank.sides(k);
-    const Foot<double> f = foot_on(s, p);
-    if (TankView::bounds(s, f, reach)) cell.clip(-1.0 * s.normal, larger(f.off, 0.0), Cell::wall(k));
-  });
+                       const Side& s = tank.sides(k);
+                       const Foot<double> f = foot_on(s, p);
+                       if (TankView::bounds(s, f, reach))
+                         cell.clip(-1.0 * s.normal, larger(f.off, 0.0), Cell::wall(k));
+                     });
 }
 
 KOKKOS_INLINE_FUNCTION void cut_neighbours(PointCell& c) {

@@ -8,12 +8,12 @@
 namespace freshet::fpm {
 namespace {
 
-constexpr double beyond =
-    0.5;  // x range: by how much values in a hole may exceed those around; elsewhere they do not
+// x range: by how much values in a hole may exceed those around; elsewhere they do not
+constexpr double beyond = 0.5;
 constexpr double touching = 0.25;  // x spacing: inner points this near to a wall stand on it; beside a wall
                                    // without points water goes through
-constexpr double lonely =
-    1.5;  // x spacing: a surface point on a wall with no fluid point nearer than this is given up
+// x spacing: a surface point on a wall with no fluid point nearer than this is given up
+constexpr double lonely = 1.5;
 
 // The closeness rules on the fields of a set.
 struct Pairing {
@@ -32,9 +32,9 @@ struct Pairing {
     Closest best;
     cloud.near.for_each(at(cloud.near.x, i), merge * cloud.spacing_at(i),
                         [&](int j, const Vec<double, 2>&, double r2) {
-      if (j != i && (fate(i, j, r2) != keep || fate(j, i, r2) != keep))
-        best.look_at(j, r2, cloud.id(i), cloud.id(j));
-    });
+                          if (j != i && (fate(i, j, r2) != keep || fate(j, i, r2) != keep))
+                            best.look_at(j, r2, cloud.id(i), cloud.id(j));
+                        });
     return best;
   }
   KOKKOS_INLINE_FUNCTION bool is_lonely(int i) const {
@@ -66,10 +66,10 @@ struct Choice {
     const double close = apart * cloud.spacing_at(i);
     cloud.near.for_each(missing(i).x, reach * cloud.spacing_at(i) + close,
                         [&](int j, const Vec<double, 2>&, double) {
-      if (j == i || missing(j).kind == Gap::none) return;
-      const Vec<double, 2> d = cloud.near.period.shortest(missing(j).x - missing(i).x);
-      if (dot(d, d) < close * close && first(j, i)) best = false;
-    });
+                          if (j == i || missing(j).kind == Gap::none) return;
+                          const Vec<double, 2> d = cloud.near.period.shortest(missing(j).x - missing(i).x);
+                          if (dot(d, d) < close * close && first(j, i)) best = false;
+                        });
     return best;
   }
 };

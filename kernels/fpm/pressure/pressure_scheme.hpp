@@ -7,8 +7,8 @@ namespace freshet::fpm {
 // name: a scene's word for it. The first is the default; the printed ones are unstable, kept to show it.
 struct PressureScheme {
   const char* name = "filtered";
-  bool fitted =
-      true;  // q = the fitted pressure of the step before, the velocity near edges drawn towards its fit
+  // q = the fitted pressure of the step before, the velocity near edges drawn towards its fit
+  bool fitted = true;
   bool incremental = false;  // q = the pressure of the step before as it is; neither: q = 0
   bool as_printed = false;   // v* = 0 and n . grad phi = 0 on walls
 };

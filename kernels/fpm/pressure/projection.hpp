@@ -22,8 +22,8 @@ struct FlowRule {
   Vec<double, 2> force{};  // m/s2
   PressureScheme scheme;
   bool slip = true;  // walls; false: they hold the tangential velocity too
-  double tolerance =
-      1e-9;  // of the pressure equation: of its right side, or 10 x this of the flow's velocities
+  // of the pressure equation: of its right side, or 10 x this of the flow's velocities
+  double tolerance = 1e-9;
   bool implicit = false;  // viscosity
 };
 

@@ -3,8 +3,8 @@
 namespace freshet::fpm {
 namespace {
 
-constexpr double reach =
-    0.75;  // x support: contact lines and corners of lattices have three inner points as near
+// x support: contact lines and corners of lattices have three inner points as near
+constexpr double reach = 0.75;
 constexpr double enough = 1.5;  // inner points
 constexpr double slack = 1e-9;  // of the speed squared: round-off is no change
 

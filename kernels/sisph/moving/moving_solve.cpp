@@ -43,8 +43,8 @@ linear::CgReport MovingWater<D>::solve_linear(const linear::CgOptions& options, 
         "sisph::product", g_.slices.count,
         linear::PairProduct<SliceList>{g_.pairs, g_.slices, {a_}, diagonal_, g_.free, x, y})[0];
   };
-  constexpr double most =
-      24;  // cells of the mesh for a particle: few that have flown far must not make it huge
+  // cells of the mesh for a particle: few that have flown far must not make it huge
+  constexpr double most = 24;
   const bool suits = linear::MeshCorrection<D>::suits(rows_, g_.pairs.particles, most);
   if (!mesh_on_ || !suits) return cg_.solve(product, linear::Jacobi{inverse_}, right_, correction_, options);
   lay_mesh(stiffness);

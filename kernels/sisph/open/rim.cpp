@@ -55,9 +55,9 @@ RimFlow Rim<D>::flow(const FreeSurface<D>& surface, double dt, bool closed) {
   if (list_.count == 0) return {};
   const auto sum = std::visit(
       [&](const auto& a) {
-    const Crossing<D, std::decay_t<decltype(a)>> pass{
-        g_, list_, a, surface.flux(), surface.level(), closed ? 0.0 : 1 / dt};
-    return sum_of_slices<2>("sisph::rim_flow", list_.count, pass);
+        const Crossing<D, std::decay_t<decltype(a)>> pass{
+            g_, list_, a, surface.flux(), surface.level(), closed ? 0.0 : 1 / dt};
+        return sum_of_slices<2>("sisph::rim_flow", list_.count, pass);
       },
       surface.pairs());
   return {dt * sum[0], dt * sum[1]};

@@ -97,20 +97,20 @@ void RimLaws::find(const RimFeet& feet, double t, double dt) const {
       share(opening, discharge->by_width || by_width_, feet.depth);
     std::visit(
         [&](const auto& kind) {
-      using Law = std::decay_t<decltype(kind)>;
-      const FindStates<Law> found{kind,
-                                  in_time.first,
-                                  in_time.second,
-                                  {place_, feet.depth, opening},
-                                  feet,
-                                  mean_out_,
-                                  mean_celerity_,
-                                  shares_,
-                                  gravity_,
-                                  spacing_,
-                                  t,
-                                  dt};
-      launch("sisph::rim_states", Range(0, place_.extent_int(0)), found);
+          using Law = std::decay_t<decltype(kind)>;
+          const FindStates<Law> found{kind,
+                                      in_time.first,
+                                      in_time.second,
+                                      {place_, feet.depth, opening},
+                                      feet,
+                                      mean_out_,
+                                      mean_celerity_,
+                                      shares_,
+                                      gravity_,
+                                      spacing_,
+                                      t,
+                                      dt};
+          launch("sisph::rim_states", Range(0, place_.extent_int(0)), found);
         },
         in_time.law);
   }

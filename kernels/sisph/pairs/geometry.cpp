@@ -69,9 +69,9 @@ void measure_pairs(const Geometry<D>& g, const Shapes<D>& shapes, bool sized) {
   const Range all(0, g.pairs.slices());
   std::visit(
       [&](const auto& k) {
-    using Kernel = std::decay_t<decltype(k)>;
-    if (sized) launch("sisph::measure", all, Measure<D, Kernel, true>{g, shapes.h, k});
-    else launch("sisph::measure", all, Measure<D, Kernel, false>{g, shapes.h, k});
+        using Kernel = std::decay_t<decltype(k)>;
+        if (sized) launch("sisph::measure", all, Measure<D, Kernel, true>{g, shapes.h, k});
+        else launch("sisph::measure", all, Measure<D, Kernel, false>{g, shapes.h, k});
       },
       shapes.kernel);
 }

@@ -47,8 +47,8 @@ struct GeometryRequest {
   double spacing;             // m, of the lattice
   double cell;                // m^D, that a particle covers on average
   MirrorWalls<D> walls = {};  // none, or those that images stand behind
-  bool linear =
-      true;  // gradients exact for linear fields (Krongauz and Belytschko); false: S_i = s_i 1 (Shepard)
+  // gradients exact for linear fields (Krongauz and Belytschko); false: S_i = s_i 1 (Shepard)
+  bool linear = true;
 };
 
 // Everything but the closure. Allocates; not for use inside a step.
@@ -77,8 +77,8 @@ KOKKOS_FORCEINLINE_FUNCTION Lane free_lanes(const Geometry<D>& g, const Lanes& m
   return me.load(g.free);
 }
 
-inline constexpr double least_moment =
-    1e-30;  // beside S of order 1: a particle without neighbours has no gradient
+// beside S of order 1: a particle without neighbours has no gradient
+inline constexpr double least_moment = 1e-30;
 
 KOKKOS_FORCEINLINE_FUNCTION Sym<Lane, 1> outer(const Vec<Lane, 1>& a, Lane factor) {
   return {factor * a.x * a.x};

@@ -141,9 +141,9 @@ template <int D>
 double FreeSurface<D>::find_residual(const SliceList& active, const Layer<D>& water) {
   return std::visit(
       [&](const auto& a) {
-    const Residual<D, std::decay_t<decltype(a)>> pass{g_,        active, a,      level_,
-                                                      water.bed, right_, depth_, residual_};
-    return std::sqrt(sum_of_slices<1>("sisph::residual", active.count, pass)[0]);
+        const Residual<D, std::decay_t<decltype(a)>> pass{g_,        active, a,      level_,
+                                                          water.bed, right_, depth_, residual_};
+        return std::sqrt(sum_of_slices<1>("sisph::residual", active.count, pass)[0]);
       },
       pairs_);
 }
@@ -191,9 +191,9 @@ int FreeSurface<D>::solve_linear(const SliceList& active, const Layer<D>& water,
   const auto product = [&](const Field<double>& x, const Field<double>& y) {
     return std::visit(
         [&](const auto& a) {
-      using Product = linear::PairProduct<SliceList, std::decay_t<decltype(a)>>;
-      return sum_of_slices<1>("sisph::product", active.count,
-                              Product{g_.pairs, active, a, diagonal_, g_.free, x, y})[0];
+          using Product = linear::PairProduct<SliceList, std::decay_t<decltype(a)>>;
+          return sum_of_slices<1>("sisph::product", active.count,
+                                  Product{g_.pairs, active, a, diagonal_, g_.free, x, y})[0];
         },
         pairs_);
   };
@@ -212,9 +212,9 @@ template <int D>
 void FreeSurface<D>::level_rows(const SliceList& active, const Layer<D>& water) {
   std::visit(
       [&](const auto& a) {
-    const LevelAlone<D, std::decay_t<decltype(a)>> pass{g_,        active, a,        level_,
-                                                        water.bed, right_, row_sum_, change_};
-    launch("sisph::level_alone", Range(0, active.count), pass);
+        const LevelAlone<D, std::decay_t<decltype(a)>> pass{g_,        active, a,        level_,
+                                                            water.bed, right_, row_sum_, change_};
+        launch("sisph::level_alone", Range(0, active.count), pass);
       },
       pairs_);
   const PairView pairs = g_.pairs;

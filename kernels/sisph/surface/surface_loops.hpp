@@ -148,8 +148,8 @@ struct LevelAlone {
     const int s = active(k);
     const Lanes me = g.pairs(s);
     const Lane sum = me.load(row_sum), floor = me.load(bed);
-    const Lane excess =
-        me.load(right) + a.weighted_sum(g.pairs, s, level) - sum * floor;  // were its level the bed's
+    // were its level the bed's
+    const Lane excess = me.load(right) + a.weighted_sum(g.pairs, s, level) - sum * floor;
     const Lane slope = sum + select(Lane(0.0) < excess, me.load(g.omega), Lane(0.0));
     const auto tied = (Lane(0.0) < sum) & (Lane(0.5) < free_lanes(g, me));
     me.store(found, select(tied, floor + excess / (slope + 1e-300), me.load(level)));

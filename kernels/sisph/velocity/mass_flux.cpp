@@ -175,8 +175,9 @@ FluxReport MassFlux<D>::close_depths(const SliceList& active, const Layer<D>& wa
                                      const FreeSurface<D>& surface, double dt) {
   std::visit(
       [&](const auto& a) {
-    const Fluxes<D, std::decay_t<decltype(a)>> pass{g_, active, a, surface.level(), surface.flux(), 1 / dt};
-    launch("sisph::fluxes", Range(0, active.count), pass);
+        const Fluxes<D, std::decay_t<decltype(a)>> pass{g_,    active, a, surface.level(), surface.flux(),
+                                                        1 / dt};
+        launch("sisph::fluxes", Range(0, active.count), pass);
       },
       surface.pairs());
   FluxReport report;

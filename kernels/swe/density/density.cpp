@@ -167,9 +167,9 @@ void calibrate_density(const AnyKernel<D>& kernel, const ClusterSet& clusters, c
                        const WallView<D>& walls, const Particles<D>& p, const Field<double>& calibration) {
   std::visit(
       [&](const auto& k) {
-    using K = std::decay_t<decltype(k)>;
-    launch("swe::calibrate", Range(0, clusters.size()),
-           Calibrate<D, K>{{k, clusters, near, walls, p}, calibration});
+        using K = std::decay_t<decltype(k)>;
+        launch("swe::calibrate", Range(0, clusters.size()),
+               Calibrate<D, K>{{k, clusters, near, walls, p}, calibration});
       },
       kernel);
 }

@@ -14,8 +14,8 @@ struct DensityOptions {
   bool gradient;         // the stabilisation reconstructs velocities
   double imposed_alpha;  // of particles with an imposed state
   double ahead;  // extrapolation of d rho/dt to the middle of the next step: 1/2 at equal steps, 0 = none
-  Field<double> calibration =
-      {};  // what the sum is multiplied by (well-balanced runs, well_balanced.hpp); empty = 1
+  // what the sum is multiplied by (well-balanced runs, well_balanced.hpp); empty = 1
+  Field<double> calibration = {};
 };
 
 struct DensityReport {

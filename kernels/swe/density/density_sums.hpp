@@ -142,8 +142,8 @@ struct SumDensity {
     else
       return by_register<Lane>(Seen<Lane, D>{x, v, inv_h},
                                [&](const auto& some, int part) FRESHET_INLINE_LAMBDA {
-        return walk_some<want>(near.of(c, part), some, [](int) { return true; });
-      });
+                                 return walk_some<want>(near.of(c, part), some, [](int) { return true; });
+                               });
   }
 
   // Signs of x and v are those of x_ij and v_ij: only their products count.

@@ -37,8 +37,8 @@ void find_depth_gradient(const AnyKernel<D>& kernel, const ClusterSet& clusters,
                          const Particles<D>& p) {
   std::visit(
       [&](const auto& k) {
-    launch("swe::depth_gradient", Range(0, clusters.size()),
-           DepthGradient<D, std::decay_t<decltype(k)>>{k, clusters, near, p});
+        launch("swe::depth_gradient", Range(0, clusters.size()),
+               DepthGradient<D, std::decay_t<decltype(k)>>{k, clusters, near, p});
       },
       kernel);
 }

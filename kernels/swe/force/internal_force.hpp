@@ -12,7 +12,7 @@ namespace freshet::swe {
 inline Cost internal_force_cost(const AnyStabilisation& stabilisation) {
   return std::visit(
       [](const auto& s) {
-    return Cost{61 + s.flops, 8, s.velocity_gradient ? 16.0 : 13.0};
+        return Cost{61 + s.flops, 8, s.velocity_gradient ? 16.0 : 13.0};
       },
       stabilisation);
 }

@@ -239,9 +239,9 @@ template <int D, bool single>
 void sum_force(const ForceRequest<D>& request) {
   std::visit(
       [&](const auto& k, const auto& stabilise) {
-    using Force = InternalForce<D, std::decay_t<decltype(k)>, std::decay_t<decltype(stabilise)>, single>;
-    launch("swe::force", balanced(request.clusters.size()),
-           Force{k, request.clusters, request.near, request.walls, request.p, stabilise});
+        using Force = InternalForce<D, std::decay_t<decltype(k)>, std::decay_t<decltype(stabilise)>, single>;
+        launch("swe::force", balanced(request.clusters.size()),
+               Force{k, request.clusters, request.near, request.walls, request.p, stabilise});
       },
       request.kernel, request.stabilisation);
 }

@@ -83,8 +83,8 @@ void add_balanced_bed(const AnyKernel<D>& kernel, const ClusterSet& clusters, co
       });
   std::visit(
       [&](const auto& k) {
-    launch("swe::balanced_bed", Range(0, clusters.size()),
-           BalancedBed<D, std::decay_t<decltype(k)>>{k, clusters, near, walls, p, bed, 0.5 * gravity});
+        launch("swe::balanced_bed", Range(0, clusters.size()),
+               BalancedBed<D, std::decay_t<decltype(k)>>{k, clusters, near, walls, p, bed, 0.5 * gravity});
       },
       kernel);
 }

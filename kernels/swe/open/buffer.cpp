@@ -102,24 +102,25 @@ void OpenBuffer<D>::observe(const Rows& rows, const Particles<D>& p, const Field
         if constexpr (D == 2) y = here.y;
         const double far = Kernel<D>::support * rows.largest_h(here.x, here.x, y, y);
         double weight = 0, level = 0, speed = 0, slip = 0;
-        rows.for_each_run(here.x, here.x, y, y, far,
-                          [&](int begin, int end) {
-      for (int j = begin; j < end; ++j) {
-        if (kind(j) != 0) continue;
-        const Vec<double, D> d = at(f.x, j) - here;
-        const double q = root(dot(d, d)) * f.inv_h(j);
-        if (q >= Kernel<D>::support) continue;
-        const double w = f.m(j) / f.rho(j) * power<D>(f.inv_h(j)) * Kernel<D>::at(q).w;
-        weight += w;
-        const Vec<double, D> there = at(f.x, j), v = at(f.v, j);
-        const double u = dot(v, at_line.line.inward), depth = f.rho(j) / summed, b = bed_at<D>(ground, there);
-        // Where it flows in, a fall would answer each particle that enters.
-        const double out = smaller(u, 0.0),
-                     lower = fall<D>(friction, depth, out, {there, at_line.inside(there), bed_on_line - b});
-        level += w * (depth + b + lower);
-        speed += w * u;
-        slip += w * dot(v, at_line.line.tangent);
-      }
+        rows.for_each_run(here.x, here.x, y, y, far, [&](int begin, int end) {
+          for (int j = begin; j < end; ++j) {
+            if (kind(j) != 0) continue;
+            const Vec<double, D> d = at(f.x, j) - here;
+            const double q = root(dot(d, d)) * f.inv_h(j);
+            if (q >= Kernel<D>::support) continue;
+            const double w = f.m(j) / f.rho(j) * power<D>(f.inv_h(j)) * Kernel<D>::at(q).w;
+            weight += w;
+            const Vec<double, D> there = at(f.x, j), v = at(f.v, j);
+            const double u = dot(v, at_line.line.inward), depth = f.rho(j) / summed,
+                         b = bed_at<D>(ground, there);
+            // Where it flows in, a fall would answer each particle that enters.
+            const double out = smaller(u, 0.0),
+                         lower =
+                             fall<D>(friction, depth, out, {there, at_line.inside(there), bed_on_line - b});
+            level += w * (depth + b + lower);
+            speed += w * u;
+            slip += w * dot(v, at_line.line.tangent);
+          }
         });
         row(r).wet = weight > 0;
         if (weight <= 0) return;
@@ -228,8 +229,8 @@ int OpenBuffer<D>::count_room(const FieldSet& particles, const VecField<double, 
       "open::room", Range(0, total + 1), KOKKOS_LAMBDA(int r, int& sum, bool last) {
         if (last) room(r) = sum;
         if (r == total) return;
-        const bool wedge =
-            !at_line.on_line(r) && nearest(r) < none;  // nothing that crosses the line fills it from within
+        // nothing that crosses the line fills it from within
+        const bool wedge = !at_line.on_line(r) && nearest(r) < none;
         inner_room(r) =
             wedge ? static_cast<int>(larger(0.0, ::floor((nearest(r) - extent(r).from - 0.25 * dx) / dx)))
                   : 0;

@@ -123,9 +123,9 @@ void OpenSection::impose(const OpenLaw& law, double dt) const {
   const PortionOfRow portion{row_, width_, scales_.least};
   std::visit(
       [&](const auto& kind) {
-    using Law = std::decay_t<decltype(kind)>;
-    const Impose<Law> impose{kind, portion, shares_, scales_, dt};
-    launch("open::impose", Range(0, row_.extent_int(0)), impose);
+        using Law = std::decay_t<decltype(kind)>;
+        const Impose<Law> impose{kind, portion, shares_, scales_, dt};
+        launch("open::impose", Range(0, row_.extent_int(0)), impose);
       },
       law);
 }

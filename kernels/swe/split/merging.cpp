@@ -97,8 +97,8 @@ int Refinement<D>::merge(const Particles<D>& p, int n, const Field<int>& kind, c
           p.rate(i) += part * (p.rate(j) - p.rate(i));
           p.m(i) = m;
           const double area0 = power<D>(p.h0(i)) + power<D>(p.h0(j)), kh = p.rho(i) * power<D>(p.h(i));
-          const double h0 =
-              kh / (p.kh(i) + p.kh(j)) * area0;  // to the power D: kh / h0^D is the two's mean rho0
+          // to the power D: kh / h0^D is the two's mean rho0
+          const double h0 = kh / (p.kh(i) + p.kh(j)) * area0;
           p.h0(i) = smaller(D == 1 ? h0 : root(h0), larger(longest, larger(p.h0(i), p.h0(j))));
           p.kh(i) = kh;
           p.id(j) = -1;

@@ -10,8 +10,8 @@ namespace freshet::fpm {
 
 class AreaKeeper {
  public:
-  static constexpr double band =
-      0.005;  // of the area at the start; dam breaks, drops and waves stay below 0.0015
+  // of the area at the start; dam breaks, drops and waves stay below 0.0015
+  static constexpr double band = 0.005;
   static constexpr double steps = 25;  // in which it goes back; a point moves by half a spacing in one
   static constexpr int every = 10;     // steps from look to look
 

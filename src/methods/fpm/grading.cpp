@@ -25,12 +25,12 @@ BedSpline<2> tabulated(const Scene& scene) {
            y <= scene.domain.high[1];
   };
   return {[&](double x, double y) {
-    const double factor = scene.fpm->grading(x, y);
-    if (inside(x, y) && !(factor >= least && factor <= most))
-      throw SceneError("fpm.grading is " + std::to_string(factor) + " at (" + std::to_string(x) + ", " +
-                       std::to_string(y) +
-                       ") m; it must be between 1 and 4, times water.spacing, the finest");
-    return std::clamp(factor, least, most);
+            const double factor = scene.fpm->grading(x, y);
+            if (inside(x, y) && !(factor >= least && factor <= most))
+              throw SceneError("fpm.grading is " + std::to_string(factor) + " at (" + std::to_string(x) +
+                               ", " + std::to_string(y) +
+                               ") m; it must be between 1 and 4, times water.spacing, the finest");
+            return std::clamp(factor, least, most);
           },
           lattice_of(scene)};
 }

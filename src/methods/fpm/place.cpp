@@ -17,8 +17,8 @@ namespace freshet::fpm {
 namespace {
 
 constexpr double touching = 0.25;  // x dx: points that start nearer than this to a wall stand on it
-constexpr double off_outline =
-    0.6;  // x dx: lattice points closer than this to a slanting outline are left out
+// x dx: lattice points closer than this to a slanting outline are left out
+constexpr double off_outline = 0.6;
 
 // Places along one side of a box: from end to end, or the middles of cells where the box fills a periodic
 // domain.

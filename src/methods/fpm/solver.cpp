@@ -11,8 +11,8 @@
 namespace freshet::fpm {
 namespace {
 
-constexpr double fastest_growth =
-    2;  // of the time step: backward differences of second order stand less than 1 + sqrt 2
+// of the time step: backward differences of second order stand less than 1 + sqrt 2
+constexpr double fastest_growth = 2;
 
 std::string unsolved(const linear::BiCgStabReport& solve, double tolerance) {
   char text[300];

@@ -13,8 +13,8 @@ namespace {
 using Boundary = freshet::OpenBoundary;
 
 constexpr double wall_cells = 8;  // a wall beside a buffer is so long
-constexpr double least_outward =
-    0.2;  // sine: a wall that meets the line at a smaller angle runs along it, not out of it
+// sine: a wall that meets the line at a smaller angle runs along it, not out of it
+constexpr double least_outward = 0.2;
 
 bool meet(const Vec<double, 2>& a, const Point& b, double spacing) {
   return freshet::meet({a.x, a.y}, b, 1e-3 * spacing);

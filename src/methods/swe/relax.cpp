@@ -29,8 +29,8 @@ Scene still_water(const Scene& scene, bool lake) {
     still.water.velocity = {};
     still.water.depth = [](double, double) { return 1.0; };
   }
-  still.sph.newton_tolerance =
-      1e-20;  // where the particles come to rest hangs on the tenth digit of their pressures
+  // where the particles come to rest hangs on the tenth digit of their pressures
+  still.sph.newton_tolerance = 1e-20;
   still.manning.reset();
   still.sph.well_balanced = false;
   LaxFriedrichs plain;

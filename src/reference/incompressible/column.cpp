@@ -36,9 +36,9 @@ double face_acceleration(const WaterColumn& c, double y) {
 
 double top_acceleration(const WaterColumn& c, double x) {
   const double infinite = -4 * c.gravity / pi * std::atan(std::exp(pi * x / (2 * c.height)));
-  return infinite - sum_modes(c.height, c.length,
-                              [&](int m, double k) {
-    return 2 * c.gravity * (m % 2 == 0 ? 1 : -1) / (k * c.height) * (ratio(k, x, c.length) - std::exp(k * x));
+  return infinite - sum_modes(c.height, c.length, [&](int m, double k) {
+           return 2 * c.gravity * (m % 2 == 0 ? 1 : -1) / (k * c.height) *
+                  (ratio(k, x, c.length) - std::exp(k * x));
          });
 }
 

@@ -6,8 +6,8 @@
 namespace freshet {
 namespace {
 
-constexpr double round_off =
-    1e-10;  // of the energy at the start: water at rest has no kinetic energy to compare with
+// of the energy at the start: water at rest has no kinetic energy to compare with
+constexpr double round_off = 1e-10;
 
 }  // namespace
 

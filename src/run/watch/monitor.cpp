@@ -12,10 +12,10 @@ namespace freshet {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double margin_in_h =
-    4;  // a few smoothing lengths: walls act within 2 h, so a particle beyond is lost
-constexpr double buffer_in_dx =
-    6;  // depth of an open boundary's buffer outside the domain, or where particles are longer
+// a few smoothing lengths: walls act within 2 h, so a particle beyond is lost
+constexpr double margin_in_h = 4;
+// depth of an open boundary's buffer outside the domain, or where particles are longer
+constexpr double buffer_in_dx = 6;
 constexpr double buffer_in_h = 2.5;  // than the first, in their h
 
 Allowed allowed_in(const Scene& scene) {

@@ -74,8 +74,8 @@ double most_particles() {
 }
 
 std::vector<Placed> place_cells(const Scene& scene, const Function& depth) {
-  constexpr double least_part =
-      0.25;  // of a cell: the water of smaller slivers along slanting walls is left out
+  // of a cell: the water of smaller slivers along slanting walls is left out
+  constexpr double least_part = 0.25;
   const WaterRegion water(scene.walls);
   std::vector<Placed> particles;
   const bool plane = scene.domain.dimension == 2;

@@ -102,8 +102,8 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
   int least = 2 * limit + 2;
   for (const std::string& candidate : candidates) {
     const int distance = edit_distance(plain(word), plain(candidate));
-    const int rank =
-        2 * distance + (plain(word)[0] == plain(candidate)[0] ? 0 : 1);  // first letters break ties
+    // first letters break ties
+    const int rank = 2 * distance + (plain(word)[0] == plain(candidate)[0] ? 0 : 1);
     if (distance <= limit && rank < least) {
       least = rank;
       best = candidate;

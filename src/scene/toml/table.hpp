@@ -29,11 +29,11 @@ struct Context {
   Diagnostics& diagnostics;
   std::filesystem::path directory;  // of the scene file: relative paths start here
   double gravity = 9.81;            // m/s2, the constant g of expressions
-  bool exact_failed =
-      false;  // [compare] names an exact solution, with errors: no errors follow from its absence
+  // [compare] names an exact solution, with errors: no errors follow from its absence
+  bool exact_failed = false;
   std::vector<std::string> notes;  // what the reader decided and the user may want to know
-  std::vector<KeyNote>* keys =
-      nullptr;  // takes what the reader asks for, in its order, where somebody wants to know
+  // takes what the reader asks for, in its order, where somebody wants to know
+  std::vector<KeyNote>* keys = nullptr;
 };
 
 using freshet::shown;

@@ -21,12 +21,12 @@ class Counting {
     bytes.clear();
     Kokkos::Tools::Experimental::set_allocate_data_callback(
         [](const Kokkos::Profiling::SpaceHandle, const char* label, const void*, const uint64_t size) {
-      bytes[label] += static_cast<double>(size);
-    });
+          bytes[label] += static_cast<double>(size);
+        });
     Kokkos::Tools::Experimental::set_deallocate_data_callback(
         [](const Kokkos::Profiling::SpaceHandle, const char* label, const void*, const uint64_t size) {
-      bytes[label] -= static_cast<double>(size);
-    });
+          bytes[label] -= static_cast<double>(size);
+        });
   }
   ~Counting() {
     Kokkos::Tools::Experimental::set_allocate_data_callback(nullptr);

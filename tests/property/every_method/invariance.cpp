@@ -38,8 +38,8 @@ struct Basin {
     s.bed.elevation = seen(&Basin::bed);
     s.water.surface = seen(&Basin::surface);
     s.manning = 0.03;
-    s.sph.newton_tolerance =
-        1e-22;  // a cluster iterates together: at 1e-5 its members would show in the sixth digit
+    // a cluster iterates together: at 1e-5 its members would show in the sixth digit
+    s.sph.newton_tolerance = 1e-22;
     test::close_box(s);
     return s;
   }

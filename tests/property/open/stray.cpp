@@ -14,8 +14,8 @@ namespace {
 Scene drop_and_stray(int dimension, bool stray) {
   Scene scene =
       bare_scene(dimension, {-2, dimension == 2 ? -2.0 : 0.0}, {9, dimension == 2 ? 9.0 : 0.0}, 0.05);
-  scene.sph.h_floor = scene.sph.h_cap =
-      1;  // else the stray's h outgrows its list, and all lists are made again: one more Newton step
+  // else the stray's h outgrows its list, and all lists are made again: one more Newton step
+  scene.sph.h_floor = scene.sph.h_cap = 1;
   scene.water.wet_above = 0.05;
   scene.water.depth = [stray](double x, double y) {
     const double far = std::max(std::abs(x - 8.025), y != 0 ? std::abs(y - 8.025) : 0.0);

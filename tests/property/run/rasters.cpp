@@ -78,8 +78,8 @@ Grid read_grid(const std::string& path) {
 }  // namespace
 
 TEST_CASE("rasters: the sums at a cell are those over all particles") {
-  const double cell =
-      GENERATE(0.021, 0.07);  // finer and coarser than the particles; rows that end within a pack
+  // finer and coarser than the particles; rows that end within a pack
+  const double cell = GENERATE(0.021, 0.07);
   Flow flow(drop());
   flow.many_steps(15);
   const CellGrid grid = square_grid({2, {-1.3, -1.2}, {1.4, 1.1}}, cell);
@@ -125,8 +125,8 @@ TEST_CASE("rasters: boundary particles are no water") {
   test::open_left(scene, IncomingWave{}, {{0}, {0.4}});
   const Flow flow(scene);
   REQUIRE(std::as_const(*flow.method).fields().has("kind"));
-  const CellGrid grid =
-      square_grid({2, {-0.3, 0}, {-0.1, 0.8}}, 0.05);  // over the buffer, a kernel away from the water
+  // over the buffer, a kernel away from the water
+  const CellGrid grid = square_grid({2, {-0.3, 0}, {-0.1, 0.8}}, 0.05);
   const CoverFields sums = cover_cells(grid, *flow.method);
   for (int k = 0; k < grid.size(); ++k) CHECK(sums.cover(k) < 1e-3);
 }

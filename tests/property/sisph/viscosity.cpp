@@ -72,8 +72,8 @@ double decay_error(double spacing, double disorder) {
   scene.water.velocity = {[swirl](double x, double y) { return -y * swirl(x, y); },
                           [swirl](double x, double y) { return x * swirl(x, y); }};
   scene.sisph.momentum = test::pick(sisph::momentum_forms(), "semi-lagrangian");
-  scene.sisph.courant =
-      0.5;  // viscosity is of first order in time: nu k^2 dt / 2 = 0.6 % at the finer spacing
+  // viscosity is of first order in time: nu k^2 dt / 2 = 0.6 % at the finer spacing
+  scene.sisph.courant = 0.5;
   Flow flow(scene);
   flow.run(0.05);  // waves of the start leave the swirl alone
   const double start = flow.method->mechanics().kinetic, time = flow.t;

@@ -140,8 +140,8 @@ TEST_CASE("refinement: a free drop that splits and merges as it goes keeps mass 
 TEST_CASE("refinement: half a lake split stays calm", "[slow]") {
   Scene scene = test::bare_scene(2, {0, 0}, {1, 0.5}, 0.05);
   scene.water.depth = [](double, double) { return 0.5; };
-  scene.water.disorder =
-      GENERATE(0.0, 1e-5, 1e-4);  // which particles push past each other at the seam is chance
+  // which particles push past each other at the seam is chance
+  scene.water.disorder = GENERATE(0.0, 1e-5, 1e-4);
   CAPTURE(scene.water.disorder);
   test::close_box(scene);
   scene.split = split_of(1e300);

@@ -22,8 +22,8 @@ class Recording {
     set_launch(launch);
     Kokkos::Tools::Experimental::set_allocate_data_callback(
         [](const Kokkos::Profiling::SpaceHandle, const char* label, const void*, const uint64_t) {
-      allocated->push_back(label);
-    });
+          allocated->push_back(label);
+        });
   }
   ~Recording() {
     set_launch(nullptr);

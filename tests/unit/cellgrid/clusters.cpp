@@ -152,9 +152,9 @@ TEST_CASE("clusters: a lattice, also one whose points lie on the borders of bins
   check([](int d) { return test::lattice(d, {0, 40, 0, 37}, dx); }, constant(1.2 * dx));
   check(
       [](int d) {
-    auto points = test::lattice(d, {-20, 20, -18, 18}, dx);
-    for (Point& p : points) p = {p[0] - 0.5 * dx, d == 2 ? p[1] - 0.5 * dx : 0};
-    return points;
+        auto points = test::lattice(d, {-20, 20, -18, 18}, dx);
+        for (Point& p : points) p = {p[0] - 0.5 * dx, d == 2 ? p[1] - 0.5 * dx : 0};
+        return points;
       },
       constant(dx));  // here 2 h is a distance that occurs
 }
@@ -198,13 +198,14 @@ TEST_CASE("clusters: no particle and one particle") {
 TEST_CASE("clusters: particles along the rim of a box") {
   check(
       [](int d) {
-    std::vector<Point> rim;
-    for (int k = 0; k <= 100; ++k) {
-      const double s = 0.02 * k;
-      rim.push_back({s, 0});
-      if (d == 2) rim.insert(rim.end(), {{s, 2}, {0, s}, {2, s}});  // corners twice: particles on one point
-    }
-    return rim;
+        std::vector<Point> rim;
+        for (int k = 0; k <= 100; ++k) {
+          const double s = 0.02 * k;
+          rim.push_back({s, 0});
+          if (d == 2)
+            rim.insert(rim.end(), {{s, 2}, {0, s}, {2, s}});  // corners twice: particles on one point
+        }
+        return rim;
       },
       constant(1.2 * dx));
 }
@@ -212,10 +213,10 @@ TEST_CASE("clusters: particles along the rim of a box") {
 TEST_CASE("clusters: two islands far apart") {
   check(
       [](int d) {
-    auto points = test::random_points(d, 500, 0.8, 9);
-    const auto other = test::random_points(d, 500, 0.8, 10, {1e5 * dx, d == 2 ? -2e5 * dx : 0});
-    points.insert(points.end(), other.begin(), other.end());
-    return points;
+        auto points = test::random_points(d, 500, 0.8, 9);
+        const auto other = test::random_points(d, 500, 0.8, 10, {1e5 * dx, d == 2 ? -2e5 * dx : 0});
+        points.insert(points.end(), other.begin(), other.end());
+        return points;
       },
       constant(1.2 * dx));
 }

@@ -93,8 +93,8 @@ TEST_CASE("radial reference: as an exact solution it starts from the dam and poi
   CHECK(north.depth == Approx(east.depth));
   CHECK(far.depth == Approx(5).epsilon(1e-12));
   CHECK(exact->at(30, -20, 10).u == 0);
-  const auto again =
-      radial_dam_profile({10, 5, 100, 30, -20}, 20, g, 500);  // another time makes another profile
+  // another time makes another profile
+  const auto again = radial_dam_profile({10, 5, 100, 30, -20}, 20, g, 500);
   CHECK(exact->at(30 + 150, -20, 20).depth == again.at(150, 0).depth);
 }
 

@@ -138,8 +138,8 @@ TEST_CASE("A steady eddy satisfies the equations and turns fastest at its radius
   const auto exact = eddy({1, 1.5, 2, 10, -3}, g);  // Froude number 0.5
   for (const std::array<double, 2>& p :
        std::vector<std::array<double, 2>>{{11, -3}, {10.5, -2}, {8.5, -4.5}, {12, -3.1}}) {
-    const Residual r =
-        residual(*exact, flat, {p[0], p[1], 0}, 1e-3, 0.1);  // truncates at (s / radius)^2 = 2.5e-7
+    // truncates at (s / radius)^2 = 2.5e-7
+    const Residual r = residual(*exact, flat, {p[0], p[1], 0}, 1e-3, 0.1);
     CHECK(r.mass < 2e-6);
     CHECK(r.momentum_x < 2e-6);
     CHECK(r.momentum_y < 2e-6);

@@ -125,8 +125,8 @@ double place_error(const std::string& paths, double dt) {
     const auto k = static_cast<std::size_t>(s);
     return sum[k] + f * (sum[k + 1] - sum[k]);
   };
-  const int beside =
-      (r.method->fields().size() - 1600) / 2;  // particles on each side of the domain: ids follow x
+  // particles on each side of the domain: ids follow x
+  const int beside = (r.method->fields().size() - 1600) / 2;
   double square = 0;
   for (std::size_t i = 0; i < r.fluid.size(); ++i) {
     const double first = -1 + (r.fluid.id[i] - beside + 0.5) * 2.0 / 1600;

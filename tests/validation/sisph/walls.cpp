@@ -37,8 +37,8 @@ Basin circle() {
   constexpr double radius = 0.5, root = 1.8411837813406593,
                    top = 0.5818652242815963;  // J1 at its first maximum
   Basin basin{[](double x, double y) {
-    const double r = std::hypot(x, y);
-    return r > 0 ? std::cyl_bessel_j(1.0, root / radius * r) / top * x / r : 0.0;
+                const double r = std::hypot(x, y);
+                return r > 0 ? std::cyl_bessel_j(1.0, root / radius * r) / top * x / r : 0.0;
               },
               root / radius,
               {}};

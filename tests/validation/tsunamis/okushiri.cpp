@@ -76,8 +76,8 @@ TEST_CASE("okushiri: still water stays still at the open boundary", "[okushiri]"
     method->step(t, dt);
     t += dt;
     const FieldSet& fields = method->fields();
-    const auto inwards =
-        on_host(fields.real("u"));  // m/s; boundary particles carry their row's exterior velocity
+    // m/s; boundary particles carry their row's exterior velocity
+    const auto inwards = on_host(fields.real("u"));
     const auto kind = on_host(fields.integer("kind"));
     int at_boundary = 0, moving = 0;
     for (int i = 0; i < fields.size(); ++i)

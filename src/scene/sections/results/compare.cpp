@@ -18,8 +18,8 @@ struct Solution {
   std::shared_ptr<const Exact> exact;
   std::string description;
   double shock_speed = 0;  // m/s, 0 = no shock
-  double shock_cell_ratio =
-      1;  // depth behind over depth ahead: particles of equal mass lie so much wider ahead
+  // depth behind over depth ahead: particles of equal mass lie so much wider ahead
+  double shock_cell_ratio = 1;
   bool steady = false;
 };
 

@@ -10,8 +10,8 @@ void read_rasters(Table& section, Scene& scene) {
   Rasters rasters;
   Value<double> spacing = section.number("spacing", "m");
   spacing.positive();
-  rasters.spacing =
-      spacing.otherwise(2 * scene.water.spacing);  // a kernel is 5 spacings wide: finer cells show no more
+  // a kernel is 5 spacings wide: finer cells show no more
+  rasters.spacing = spacing.otherwise(2 * scene.water.spacing);
   const Domain& domain = scene.domain;
   const double cells = (domain.high[0] - domain.low[0]) * (domain.high[1] - domain.low[1]) /
                        (rasters.spacing * rasters.spacing);

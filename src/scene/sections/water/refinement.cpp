@@ -5,8 +5,8 @@
 namespace freshet::input {
 namespace {
 
-constexpr double relaxation =
-    10;  // h/c: quick enough to gain resolution, slow enough not to make noise (docs/design.md)
+// h/c: quick enough to gain resolution, slow enough not to make noise (docs/design.md)
+constexpr double relaxation = 10;
 
 AreaLimit read_area(Table& section, const Scene& scene) {
   AreaLimit limit;

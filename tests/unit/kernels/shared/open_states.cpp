@@ -132,8 +132,8 @@ TEST_CASE("an imposed supercritical state enters whole, still water outside pour
   const ExteriorState fast = ImposedState{0.1, true, 4}({0.3, 1}, flat);
   CHECK(fast.depth == Approx(0.1));
   CHECK(fast.inward == 4);
-  const ExteriorState dam =
-      ImposedState{1, true, 0}({}, flat);  // Ritter: depth 4/9, Froude number 1 at the dam
+  // Ritter: depth 4/9, Froude number 1 at the dam
+  const ExteriorState dam = ImposedState{1, true, 0}({}, flat);
   CHECK(dam.depth == Approx(4.0 / 9));
   CHECK(froude(dam) == Approx(1));
 }
@@ -146,8 +146,8 @@ TEST_CASE("waves enter by their invariant and leave by theirs") {
   const ExteriorState wave = IncomingWave{1}({0.7, outgoing}, raised);
   CHECK(wave.depth == Approx(0.7));
   CHECK(wave.inward == Approx(outgoing));
-  const ExteriorState against =
-      ImposedState{1, false, 0}({0.7, outgoing}, raised);  // transmissive with a level
+  // transmissive with a level
+  const ExteriorState against = ImposedState{1, false, 0}({0.7, outgoing}, raised);
   CHECK(against.depth == Approx(0.7));
   CHECK(against.inward == Approx(outgoing));
 }

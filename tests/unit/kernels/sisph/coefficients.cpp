@@ -93,14 +93,14 @@ std::pair<std::vector<double>, std::vector<double>> matrix(const Basin& basin,
   for (int i = 0; i < basin.fields.size(); ++i) x(i) = random(-1, 1);
   std::visit(
       [&](const auto& a) {
-    for (int k = 0; k < basin.g.slices.count; ++k) {
-      const int s = basin.g.slices(k), count = basin.g.pairs(s).count;
-      a.for_each(basin.g.pairs, s, [&](int, PairIndex, Lane value) {
-        for (int l = 0; l < count; ++l) entries.push_back(lane_of(value, l));
-      });
-      const Lane sum = a.weighted_sum(basin.g.pairs, s, x);
-      for (int l = 0; l < count; ++l) sums.push_back(lane_of(sum, l));
-    }
+        for (int k = 0; k < basin.g.slices.count; ++k) {
+          const int s = basin.g.slices(k), count = basin.g.pairs(s).count;
+          a.for_each(basin.g.pairs, s, [&](int, PairIndex, Lane value) {
+            for (int l = 0; l < count; ++l) entries.push_back(lane_of(value, l));
+          });
+          const Lane sum = a.weighted_sum(basin.g.pairs, s, x);
+          for (int l = 0; l < count; ++l) sums.push_back(lane_of(sum, l));
+        }
       },
       surface.pairs());
   return {entries, sums};

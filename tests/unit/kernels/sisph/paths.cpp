@@ -46,8 +46,8 @@ TEST_CASE("sisph paths: water in uniform motion is carried exactly", "[sisph]") 
     CHECK(w.before + w.start + w.end == Approx(1).epsilon(1e-15));
     CHECK(w.half_start + w.half_end == Approx(1).epsilon(1e-15));
   }
-  const PathWeights first =
-      rk3_path({0, 0.1, 0});  // nothing is known before: the velocity is taken to be linear
+  // nothing is known before: the velocity is taken to be linear
+  const PathWeights first = rk3_path({0, 0.1, 0});
   CHECK(first.before == 0);
   CHECK(first.start == Approx(0.5));
 }

@@ -80,8 +80,8 @@ namespace {
 // missing) times.
 void check_rows(const Polyline& wall, const Point& p) {
   const double missing = deficiency(wall, p, WallKind::none), bias = 2.43e-4;
-  const double real =
-      missing < 1e-3 ? 0 : missing - bias;  // in the middle of the water nothing is missing but the bias
+  // in the middle of the water nothing is missing but the bias
+  const double real = missing < 1e-3 ? 0 : missing - bias;
   CHECK(deficiency(wall, p, WallKind::image_rows) == Approx(bias / (1 - real)).margin(0.5e-6));
 }
 
