@@ -45,7 +45,7 @@ bool Driver::run() {
       if (options_.each_step) options_.each_step(clock_);
     }
     for (const auto& one : observers_) one->finish(method_, clock_);
-  } catch (const Diverged& why) { give_up(why); }
+  } catch (const Diverged& why) { report_divergence(why); }
   write_state(state_file);
   progress_.end_line();
   return finished();
@@ -90,7 +90,7 @@ void Driver::write_state(const std::string& name) {
   last_checkpoint_ = progress_.elapsed();
 }
 
-void Driver::give_up(const Diverged& why) {
+void Driver::report_divergence(const Diverged& why) {
   progress_.end_line();
   std::string text = why.what();
   try {

@@ -45,7 +45,7 @@ class Driver {
   void observe();
   void take();
   void write_state(const std::string& name);
-  [[noreturn]] void give_up(const Diverged& why);
+  [[noreturn]] void report_divergence(const Diverged& why);
   void show_progress();
   Values run_values() const;
   double wall() const;  // s

@@ -6,7 +6,7 @@
 #include <type_traits>
 
 #include "cellgrid/simd/vec.hpp"
-#include "kernels/fpm/stencils/soft.hpp"
+#include "kernels/fpm/stencils/soft_pivots.hpp"
 
 namespace freshet::fpm {
 

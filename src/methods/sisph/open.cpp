@@ -12,7 +12,7 @@ std::vector<RimPlace<D>> EulerianSph<D>::rim_places() const {
   const std::vector<Point> at = Base::places();
   std::vector<RimPlace<D>> places;
   for (int i = 0; i < particles_.size(); ++i) {
-    const Beside side = kind(i) > 0 ? beside(scene_, at[static_cast<std::size_t>(i)]) : Beside{};
+    const SideAt side = kind(i) > 0 ? side_at(scene_, at[static_cast<std::size_t>(i)]) : SideAt{};
     if (side.opening < 0) continue;
     const int across = D == 2 && side.n[1] != 0 ? 1 : 0;
     const double width = D == 2 ? cell_width(scene_, 1 - across) : 1.0;  // m

@@ -107,7 +107,7 @@ void SemiImplicitSph<D>::place_particles() {
     const double bed = bed_ ? bed_->at(to_vec<D>(p.x)).b : 0.0, depth = initial_depth<D>(scene_, bed_, p.x);
     require_finite(depth, p.x);
     const bool held = !is_inside(scene_.domain, p.x);
-    if (held && beside(scene_, p.x).wall) continue;
+    if (held && side_at(scene_, p.x).wall) continue;
     if (!held) covered += p.area, ++inside;
     p.h0 = whole;
     start.push_back({p, depth, bed, held});

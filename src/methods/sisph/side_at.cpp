@@ -25,12 +25,12 @@ double distance_to_wall(const Scene& scene, const Point& p) {
 }  // namespace
 
 // A wall that ends where an open boundary begins has the corner behind both.
-Beside beside(const Scene& scene, const Point& place) {
+SideAt side_at(const Scene& scene, const Point& place) {
   const double tolerance = 1e-3 * scene.water.spacing;
   Point side = place;
   for (int axis = 0; axis < scene.domain.dimension; ++axis)
     side[axis] = std::clamp(place[axis], scene.domain.low[axis], scene.domain.high[axis]);
-  Beside found;
+  SideAt found;
   found.wall = distance_to_wall(scene, side) < tolerance;
   for (std::size_t o = 0; o < scene.boundaries.size() && !found.wall && found.opening < 0; ++o) {
     const std::vector<Point>& line = scene.boundaries[o].line;

@@ -5,14 +5,14 @@
 
 namespace freshet::sisph {
 
-struct Beside {
+struct SideAt {
   bool wall = false;
   int opening = -1;    // index of the boundary
   Point n{};           // its normal out of the water
   double outside = 0;  // m, behind its line
 };
 
-Beside beside(const Scene& scene, const Point& place);
+SideAt side_at(const Scene& scene, const Point& place);
 
 // Throws SceneError where an open boundary is not on a side of the domain.
 void require_on_sides(const Scene& scene);
