@@ -91,8 +91,7 @@ TEST_CASE("fpm supports: eddies keep their accuracy with supports by the number 
     all.insert(all.end(), overrides.begin(), overrides.end());
     test::FlowRun run("fpm_taylor_green", all);
     run.run_to(0.5);
-    const double w = 2 * 3.14159265358979323846,
-                 decay = std::exp(-2 * w * w * run.scene.fpm->viscosity * 0.5);
+    const double w = 2 * pi, decay = std::exp(-2 * w * w * run.scene.fpm->viscosity * 0.5);
     const auto& velocity = run.scene.fpm->bodies[0].velocity;
     double sum = 0, count = 0;
     for (const auto& p : run.points()) {

@@ -24,9 +24,7 @@ Scene walled_pool() {
   Scene scene = moving_scene(2, {0, 0}, {1, 1}, 0.05);
   test::close_box(scene);
   scene.water.disorder = 0.2;
-  scene.water.depth = [](double x, double y) {
-    return 1 + 0.1 * std::cos(3.14159265 * x) * std::cos(3.14159265 * y);
-  };
+  scene.water.depth = [](double x, double y) { return 1 + 0.1 * std::cos(pi * x) * std::cos(pi * y); };
   return scene;
 }
 

@@ -58,7 +58,7 @@ double profile_error(double spacing, const std::string& momentum, double disorde
 // Water that turns in a circular tank, J1(k r) with k R the first zero: its kinetic energy decays with exp(-2
 // nu k^2 t).
 double decay_error(double spacing, double disorder) {
-  constexpr double radius = 0.5, k = 3.8317059702075123 / radius, pi = 3.14159265358979323846;
+  constexpr double radius = 0.5, k = 3.8317059702075123 / radius;
   Scene scene = viscous_scene({-0.6, -0.6}, {0.6, 0.6}, spacing, false);
   Wall wall;
   for (int n = 0; n <= 400; ++n)

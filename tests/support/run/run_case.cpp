@@ -29,6 +29,12 @@ Results results_of(const Driver& driver, const Method& method) {
   return r;
 }
 
+double mean_rmse(const Results& results) {
+  double sum = 0;
+  for (const GaugeResult& g : results.gauges) sum += g.rmse;
+  return sum / static_cast<double>(results.gauges.size());
+}
+
 CaseRun finish_case(const std::string& name, const std::vector<std::string>& overrides) {
   const Scratch scratch;
   const Scene scene = read_case(name, overrides);

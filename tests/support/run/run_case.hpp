@@ -37,6 +37,8 @@ struct Results : Summary {
 
 Results results_of(const Driver& driver, const Method& method);
 
+double mean_rmse(const Results& results);  // m, over the gauges
+
 struct CaseRun {
   Results summary;
   std::vector<Series> gauges;            // m, elevations in the order of the scene

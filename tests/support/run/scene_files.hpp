@@ -2,6 +2,8 @@
 #pragma once
 #include <unistd.h>
 
+#include <catch2/catch.hpp>
+
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -53,6 +55,12 @@ inline Failure failure(const std::string& text, const std::vector<std::string>& 
     read_scene_text(text, file, overrides);
   } catch (const Error& error) { return {error.what(), error.exit()}; }
   return {};
+}
+
+inline void check_error(const std::string& scene, const std::string& expected) {
+  const Failure found = failure(scene);
+  CHECK(found.text == expected);
+  CHECK(found.exit == Exit::scene);
 }
 
 inline Scene read_text(const std::string& text, const std::vector<std::string>& overrides = {}) {

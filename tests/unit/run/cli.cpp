@@ -1,95 +1,21 @@
-// The command line: exit codes, refusals, suggestions, interruption.
+// The command line: runs and their files, exit codes, refusals, suggestions, interruption.
 #include <catch2/catch.hpp>
-
-#include <fcntl.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <filesystem>
 #include <set>
 #include <stdexcept>
 
-#include "src/errors.hpp"
-#include "src/io/files.hpp"
-#include "src/run/commands/cli.hpp"
 #include "src/run/commands/commands.hpp"
-#include "tests/support/run/fake_method.hpp"
-#include "tests/support/watch/scratch.hpp"
+#include "tests/support/run/command_line.hpp"
 
 using namespace freshet;
 namespace fs = std::filesystem;
 using Catch::Contains;
-
-namespace {
-
-// The fake method behind the real command line; `prepare` sees each method before it runs.
-Parts fake_parts(std::function<void(test::FakeMethod&)> prepare = {}) {
-  Parts parts;
-  parts.read = [](const std::string& path, const std::vector<std::string>& overrides) {
-    if (!overrides.empty()) throw SceneError(path + ":1:1: error: unknown key '" + overrides[0] + "'");
-    Scene scene = test::fake_scene();
-    scene.file = path;
-    return scene;
-  };
-  parts.read_again = [](const std::string&, const std::string&) { return test::fake_scene(); };
-  parts.make = [prepare](const Scene& scene) {
-    auto method = std::make_unique<test::FakeMethod>(scene);
-    if (prepare) prepare(*method);
-    return method;
-  };
-  parts.describe = [](const Scene& scene) { return std::vector<std::string>{"scene       " + scene.name}; };
-  return parts;
-}
-
-struct Result {
-  int code;
-  std::string out, err;
-};
-
-// Sends a standard stream to a file for the length of a scope.
-class Redirect {
- public:
-  Redirect(std::FILE* stream, const std::string& path) : stream_(stream), saved_(::dup(::fileno(stream))) {
-    std::fflush(stream_);
-    const int file = ::open(path.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600);
-    ::dup2(file, ::fileno(stream_));
-    ::close(file);
-  }
-  ~Redirect() {
-    std::fflush(stream_);
-    ::dup2(saved_, ::fileno(stream_));
-    ::close(saved_);
-  }
-
- private:
-  std::FILE* stream_;
-  int saved_;
-};
-
-Result freshet_with(const Parts& parts, std::vector<std::string> words) {
-  const test::Scratch scratch;
-  words.insert(words.begin(), "freshet");
-  std::vector<char*> argv;
-  for (auto& word : words) argv.push_back(word.data());
-  Result result{};
-  {
-    const Redirect out(stdout, scratch / "out"), err(stderr, scratch / "err");
-    result.code = run_cli(static_cast<int>(argv.size()), argv.data(), parts);
-  }
-  result.out = read_text(scratch / "out");
-  result.err = read_text(scratch / "err");
-  return result;
-}
-
-Result freshet_with(std::vector<std::string> words) { return freshet_with(fake_parts(), std::move(words)); }
-
-// A scene file for the fake reader, which does not look into it.
-std::string scene_in(const test::Scratch& scratch) {
-  write_text(scratch / "scene.toml", "");
-  return scratch / "scene.toml";
-}
-
-}  // namespace
+using test::fake_parts;
+using test::freshet_with;
+using test::scene_in;
+using Result = test::CommandResult;
 
 TEST_CASE("a finished run exits with 0 and leaves all its files") {
   const test::Scratch scratch;
@@ -102,58 +28,6 @@ TEST_CASE("a finished run exits with 0 and leaves all its files") {
   const Result again = freshet_with({"resume", scratch / "results"});
   CHECK(again.code == 0);
   CHECK_THAT(again.out, Contains("complete"));
-}
-
-TEST_CASE("profile prints a table or JSON and leaves no files") {
-  const test::Scratch scratch;
-  const Result lines = freshet_with({"profile", scene_in(scratch), "--steps", "3"});
-  CHECK(lines.code == 0);
-  CHECK_THAT(lines.out,
-             Contains("steps 21 to 23") && Contains("run::monitor") && Contains("particle-steps/s"));
-  const Result text = freshet_with({"profile", scene_in(scratch), "--steps=3", "--json"});
-  CHECK(text.code == 0);
-  CHECK_THAT(text.out, Contains("\"steps\": 3,") && Contains("\"label\": \"run::monitor\""));
-  for (const auto& entry : fs::directory_iterator(scratch.path()))
-    CHECK(entry.path().filename() == "scene.toml");
-  CHECK(freshet_with({"profile", scene_in(scratch), "--steps", "none"}).code == 2);
-  CHECK(freshet_with({"profile"}).code == 2);
-}
-
-TEST_CASE("difference finds the one particle that moved") {
-  const test::Scratch scratch;
-  const std::string scene = scene_in(scratch);
-  const auto run = [&](const Parts& parts, const std::string& name) {
-    return freshet_with(parts, {"run", scene, "--out", scratch / name}).code;
-  };
-  REQUIRE(run(fake_parts(), "a") == 0);
-  REQUIRE(run(fake_parts(), "b") == 0);
-  long last = 0;
-  REQUIRE(run(fake_parts([&](test::FakeMethod& method) { method.on_step = [&](long step) { last = step; }; }),
-              "b2") == 0);
-  const auto moved = [&](test::FakeMethod& method) {
-    method.on_step = [&method, last](long step) {
-      const Field<int> id = method.fields().integer("id");
-      const Field<double> y = method.fields().real("y");
-      for (int i = 0; step == last && i < method.fields().size(); ++i) y(i) += id(i) == 7 ? 0.125 : 0;
-    };
-  };
-  REQUIRE(run(fake_parts(moved), "c") == 0);
-  const Result same = freshet_with({"difference", scratch / "a", scratch / "b"});
-  CHECK(same.code == 0);
-  CHECK_THAT(same.out, Contains("\nmass "));
-  const auto lines = [](const std::string& text, const std::string& end) {
-    int n = 0;
-    for (auto at = text.find(end); at != std::string::npos; at = text.find(end, at + 1)) ++n;
-    return n;
-  };
-  CHECK(lines(same.out, "\n") == 2 + lines(same.out, " 0            0\n"));  // no field differs anywhere
-  const Result other = freshet_with({"difference", scratch / "a", scratch / "c"});
-  CHECK_THAT(other.out, Contains("0.125") && Contains(" 7\n"));
-  CHECK(lines(other.out, "\n") == 3 + lines(other.out, " 0            0\n"));
-  CHECK(freshet_with({"difference", scratch / "a"}).code == 2);
-  const Result none = freshet_with({"difference", scratch / "a", scratch / "nowhere"});
-  CHECK(none.code == 2);
-  CHECK_THAT(none.err, Contains("nowhere/state.h5 is not there"));
 }
 
 TEST_CASE("with --quiet a run prints nothing") {
@@ -290,35 +164,4 @@ TEST_CASE("an echo of the signal does not kill the run before its state is writt
   };
   CHECK(freshet_with(fake_parts(interrupt), {"run", scene_in(scratch), "--out", scratch / "r"}).code == 130);
   CHECK(fs::exists(scratch / "r/state.h5"));
-}
-
-TEST_CASE("points prints the particles of an output") {
-  const test::Scratch scratch;
-  REQUIRE(freshet_with({"run", scene_in(scratch), "--out", scratch / "r", "--quiet"}).code == 0);
-  const Result list = freshet_with({"points", scratch / "r", "--list"});
-  CHECK(list.out == "step,t [s]\n0,0\n1,0.25\n2,0.5\n3,0.75\n4,1\n");
-  const Result first = freshet_with({"points", scratch / "r", "--step", "0"});
-  CHECK(first.code == 0);
-  CHECK(first.out.rfind("x [m],y [m],z [m],depth [m],v_0 [m/s],v_1 [m/s],id [1],size [m]\n0.025,0.025,1.0025",
-                        0) == 0);
-  CHECK(std::count(first.out.begin(), first.out.end(), '\n') == 401);
-  CHECK(freshet_with({"points", scratch / "r", "--step", "0", "--csv", scratch / "p.csv"}).code == 0);
-  CHECK(read_text(scratch / "p.csv") == first.out);
-  CHECK(freshet_with({"points", scratch / "r", "--step", "9"}).code == 2);
-  CHECK(freshet_with({"points", scratch / "r", "--csv", scratch / "no/p.csv"}).code == 5);
-  CHECK(freshet_with({"points", scratch / "r", "--csv", "/dev/full"}).code == 5);
-}
-
-TEST_CASE("check, list, version and help") {
-  const test::Scratch scratch;
-  const Result check = freshet_with({"check", scene_in(scratch)});
-  CHECK(check.code == 0);
-  // 0.3 dx = 0.015 s: 66.7 steps to 1 s.
-  CHECK_THAT(check.out, Contains("scene       fake") && Contains("particles   400") &&
-                            Contains("about 67 of 0.015 s") && Contains("flight"));
-  CHECK_THAT(freshet_with({"list"}).out, Contains("okushiri") && Contains("thacker"));  // run in the checkout
-  CHECK_THAT(freshet_with({"--version"}).out,
-             Contains("backend") && Contains("compiler") && Contains("threads"));
-  CHECK_THAT(freshet_with({"--help"}).out, Contains("examples:") && Contains("exit codes:"));
-  CHECK(freshet_with({"run", "--help"}).code == 0);
 }

@@ -57,12 +57,6 @@ double rms(const Series& a, const Series& b) {
   return std::sqrt(sum / static_cast<double>(b.t.size()));
 }
 
-double mean_rmse(const test::Results& s) {
-  double sum = 0;
-  for (const GaugeResult& g : s.gauges) sum += g.rmse;
-  return sum / static_cast<double>(s.gauges.size());
-}
-
 }  // namespace
 
 TEST_CASE("splitting halves the error of the dry dam break in depth and front") {
@@ -147,6 +141,6 @@ TEST_CASE("okushiri with splitting beyond x = 2.5 m: run-up as measured, gauges 
   // 0.01417 m): waves break that the basin sent on as undular bores, and the background before the wave
   // makes 2.7 mm of all of them. No run that resolves more can keep the coarse one's: the fine run's is what
   // splitting is held to.
-  CHECK(mean_rmse(split.summary) <= 1.01 * mean_rmse(fine.summary));
+  CHECK(test::mean_rmse(split.summary) <= 1.01 * test::mean_rmse(fine.summary));
   CHECK(split.summary.mass.relative_error <= 1e-10);
 }

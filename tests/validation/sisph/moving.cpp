@@ -52,7 +52,7 @@ TEST_CASE("sisph moving: the thesis' hump about to break (7.1.1)", "[sisph]") {
         run("sisph_hump", at(n, 0.01 * 200 / n, {"sisph.theta=0.55", "compare.exact.amplitude=0.5"}));
     CAPTURE(n, r.depth_l2);
     CHECK(r.depth_l2 <= bound[k++]);
-    CHECK(r.summary.mass.initial == Approx(2 + 0.05 * std::sqrt(2 * 3.14159265358979323846)).epsilon(1e-9));
+    CHECK(r.summary.mass.initial == Approx(2 + 0.05 * std::sqrt(2 * pi)).epsilon(1e-9));
   }
 }
 
@@ -217,7 +217,7 @@ Mode lowest_mode() {
 TEST_CASE("sisph moving: a standing wave over an uneven bed between walls", "[sisph]") {
   const Mode mode = lowest_mode();
   constexpr double amplitude = 1e-6;  // m: what is not linear is as far below
-  const double period = 2 * 3.14159265358979323846 / mode.omega;
+  const double period = 2 * pi / mode.omega;
   double before = 0;
   for (const int n : {20, 40, 80}) {
     Scene scene = moving_scene(1, {0, 0}, {1, 0}, 1.0 / n);

@@ -24,12 +24,6 @@ bool skipped() {
   return true;
 }
 
-double mean_rmse(const test::Results& s) {
-  double sum = 0;
-  for (const GaugeResult& g : s.gauges) sum += g.rmse;
-  return sum / static_cast<double>(s.gauges.size());
-}
-
 }  // namespace
 
 TEST_CASE("okushiri: gauges, run-up and mass", "[okushiri][slow]") {
@@ -38,7 +32,7 @@ TEST_CASE("okushiri: gauges, run-up and mass", "[okushiri][slow]") {
   REQUIRE(s.gauges.size() == 3);
   // Of this the measured background before the wave, absent from the incident wave, makes about 2.7 mm in any
   // model.
-  CHECK(mean_rmse(s) <= 3.7e-3);
+  CHECK(test::mean_rmse(s) <= 3.7e-3);
   for (std::size_t k = 0; k < 3; ++k) {
     CAPTURE(gauges[k].name);
     CHECK(s.gauges[k].name == gauges[k].name);
@@ -94,7 +88,7 @@ TEST_CASE("okushiri: semi-implicit", "[okushiri][long]") {
   const test::Results s = test::run_case(
       "okushiri", {"scene.method=sisph", "sisph.theta=0.65", "sisph.courant=2", "bed.filter=none"});
   REQUIRE(s.gauges.size() == 3);
-  CHECK(mean_rmse(s) <= 3.7e-3);
+  CHECK(test::mean_rmse(s) <= 3.7e-3);
   for (std::size_t k = 0; k < 3; ++k) {
     CAPTURE(gauges[k].name);
     CHECK(s.gauges[k].peak == Approx(gauges[k].peak).epsilon(0.10));

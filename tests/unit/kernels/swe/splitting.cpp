@@ -15,7 +15,7 @@ using test::Grain;
 
 namespace {
 
-constexpr double turned = 3.14159265358979323846 / 12, huge = 1e300;
+constexpr double turned = pi / 12, huge = 1e300;
 
 swe::SplitOptions split_all(const swe::SplitPattern& pattern, double alpha, double area = 1e-9) {
   return {pattern, PlacedValue(area, {}), alpha, false, 0, 1 << 30};

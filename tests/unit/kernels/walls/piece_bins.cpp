@@ -71,7 +71,6 @@ std::vector<Piece> mixed(int count, double size, double x0, unsigned seed) {
 
 // A closed, wavy coast of so many sides round the origin.
 std::vector<Piece> coast(int sides) {
-  const double pi = std::acos(-1.0);
   const auto at = [&](int k) {
     const double angle = 2 * pi * (k % sides) / sides, r = 1000 * (1 + 0.1 * std::sin(17 * angle));
     return V2{r * std::cos(angle), r * std::sin(angle)};

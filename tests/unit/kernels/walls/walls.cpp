@@ -102,7 +102,7 @@ namespace {
 // Rings dx apart inside a circle of radius 20 dx, each with as many particles of mass depth dx^2 as fit, wall
 // points dx/2 apart; |sum of m W / depth - 1| of the outermost ring's particle before a wall point.
 double ring_deficiency(WallKind kind) {
-  constexpr double pi = 3.14159265358979323846, radius = 20 * dx;
+  constexpr double radius = 20 * dx;
   std::vector<Grain> grains;
   for (int ring = 0; ring < 8; ++ring) {
     const double r = radius - (ring + 0.5) * dx;

@@ -52,7 +52,7 @@ TEST_CASE("Case dam_break_wet") {
 TEST_CASE("Case thacker") {
   const Scene scene = read_scene(cases + "thacker.toml");
   CHECK(wet_cells(scene) == 11304);  // the thesis' number of particles
-  CHECK(scene.end_time == Approx(2 * 3.14159265358979 * 3000 / std::sqrt(2 * 9.81 * 10)));
+  CHECK(scene.end_time == Approx(2 * pi * 3000 / std::sqrt(2 * 9.81 * 10)));
   CHECK(scene.sph.acceleration == Acceleration::classical);
   // The surface that the water starts from lies on the bed of the scene.
   CHECK(scene.bed.elevation(3000, 0) == Approx(0).margin(1e-12));
@@ -61,7 +61,7 @@ TEST_CASE("Case thacker") {
 
 TEST_CASE("Case thacker_radial") {
   const Scene scene = read_scene(cases + "thacker_radial.toml");
-  CHECK(scene.end_time == Approx(2 * 3.14159265358979 * 3000 / std::sqrt(8 * 9.81 * 10)));
+  CHECK(scene.end_time == Approx(2 * pi * 3000 / std::sqrt(8 * 9.81 * 10)));
   CHECK(scene.water.depth(0, 0) == Approx(10 * std::sqrt(0.75) / 0.5));
 }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "cellgrid/parallel/types.hpp"
 #include "src/reference/exact.hpp"
 #include "tests/support/run/scene_files.hpp"
 
@@ -86,7 +87,7 @@ TEST_CASE("Velocities are expressions, one per axis") {
 TEST_CASE("The hump of thesis (1.13) is the shape with height 2c, middle 0.5 and width 0.5") {
   const Scene scene =
       read_text(canal("[bed]\nshape = { type = \"hump\", height = 0.1, at = 0.5, width = 0.5 }\n"));
-  const double pi = 3.14159265358979323846, c = 0.05;
+  const double c = 0.05;
   for (const double x : {0.1, 0.25, 0.3, 0.5, 0.62, 0.75, 0.9}) {
     const double thesis = x > 0.25 && x < 0.75 ? c * (1 + std::sin(pi * (4 * x + 0.5))) : 0.0;
     CHECK(scene.bed.elevation(x, 0) == Approx(thesis).margin(1e-15));  // rounding of sin and cos

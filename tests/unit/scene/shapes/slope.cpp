@@ -30,5 +30,5 @@ TEST_CASE("a step is as steep as the lattice or the filter makes it") {
   CHECK(steepest_slope(scene) == Approx(0.33 / 0.2));
   scene.bed.filter = 0.4;
   // After a Gaussian of that width: 0.33 / (0.4 sqrt(2 pi)); the window's 2.5 stands for sqrt(2 pi) = 2.507.
-  CHECK(steepest_slope(scene) == Approx(0.33 / (0.4 * std::sqrt(2 * 3.14159265))).epsilon(0.003));
+  CHECK(steepest_slope(scene) == Approx(0.33 / (0.4 * std::sqrt(2 * pi))).epsilon(0.003));
 }
