@@ -25,6 +25,14 @@ KOKKOS_FORCEINLINE_FUNCTION void bounce(const Particles<D>& f, int i, double ins
     put(*v, i, at(*v, i) + (-2 * smaller(dot(at(*v, i), inward), 0.0)) * inward);
 }
 
+// The particle keeps its area, and with it h.
+template <int D>
+KOKKOS_FORCEINLINE_FUNCTION void set_depth(const Particles<D>& f, int i, double rho) {
+  f.m(i) *= rho / f.rho(i);
+  f.kh(i) *= rho / f.rho(i);
+  f.rho(i) = rho;
+}
+
 }  // namespace
 
 template <int D>
@@ -102,16 +110,10 @@ Crossed OpenBuffer<D>::convert(FieldSet& particles, const Particles<D>& p,
     if (!leaves && kind(i) != owner) return in_out;
     const int r = at_line.row(x);
     const OpenRow state = row(at_line.state(r));
-    if (leaves && state.closed) {
-      bounce<D>(f, i, inside, at_line.line.inward);
-      return in_out;
-    }
-    if (!leaves && inside >= 0 &&
-        at_line.on_line(r)) {  // enters with the depth on the line, not that of where it was last
-      const double rho = summed * larger(state.depth, exterior.least);
-      f.m(i) *= rho / f.rho(i);
-      f.kh(i) *= rho / f.rho(i);
-      f.rho(i) = rho;
+    if (leaves && state.closed) return bounce<D>(f, i, inside, at_line.line.inward), in_out;
+    // Enters with the depth on the line, not that of where it was last.
+    if (!leaves && inside >= 0 && at_line.on_line(r)) {
+      set_depth<D>(f, i, summed * larger(state.depth, exterior.least));
       kind(i) = 0;
       in_out[0] = f.m(i);
       return in_out;
@@ -122,9 +124,7 @@ Crossed OpenBuffer<D>::convert(FieldSet& particles, const Particles<D>& p,
       f.kh(i) = f.rho(i) * power<D>(f.h(i));  // goes on from its h, also where that was at a bound
     }
     const double rho = summed * exterior.depth(state, x, inside);
-    f.m(i) *= rho / f.rho(i);  // the particle keeps its area, and with it h
-    f.kh(i) *= rho / f.rho(i);
-    f.rho(i) = rho;
+    set_depth<D>(f, i, rho);
     f.rate(i) = 0;
     f.h(i) = smoothing_length<D>(f.kh(i), rho);
     put(f.v, i, exterior.velocity(state, at_line.line));

@@ -1,6 +1,19 @@
 #include "tests/support/points/pair_system.hpp"
 
 namespace freshet::test {
+namespace {
+
+// The cubic spline W in a plane, and -W'.
+double spline(double r, double h) {
+  const double q = r / h, c = 10 / (7 * M_PI * h * h);
+  return c * (q < 1 ? 1 - 1.5 * q * q + 0.75 * q * q * q : q < 2 ? 0.25 * std::pow(2 - q, 3) : 0);
+}
+double fall_of_spline(double r, double h) {
+  const double q = r / h, c = 10 / (7 * M_PI * h * h * h);
+  return c * (q < 1 ? 3 * q - 2.25 * q * q : q < 2 ? 0.75 * std::pow(2 - q, 2) : 0);
+}
+
+}  // namespace
 
 PairSystem pair_system(const PairScene& scene) {
   const int n = scene.n;
@@ -16,25 +29,17 @@ PairSystem pair_system(const PairScene& scene) {
   const Field<double> x = s.fields.real("x"), y = s.fields.real("y");
   s.x = {x, y};
   s.omega.resize(size), s.depth.resize(size);
-  const auto weight = [h](double r) {  // cubic spline
-    const double q = r / h, c = 10 / (7 * M_PI * h * h);
-    return c * (q < 1 ? 1 - 1.5 * q * q + 0.75 * q * q * q : q < 2 ? 0.25 * std::pow(2 - q, 3) : 0);
-  };
-  const auto slope = [h](double r) {  // -W'
-    const double q = r / h, c = 10 / (7 * M_PI * h * h * h);
-    return c * (q < 1 ? 3 * q - 2.25 * q * q : q < 2 ? 0.75 * std::pow(2 - q, 2) : 0);
-  };
   std::vector<std::vector<std::pair<int, double>>> near(size);  // j, distance
   const Rows& rows = s.order.rows();
   for (std::size_t i = 0; i < size; ++i) {
     const int me = static_cast<int>(i);
-    double sum = weight(0);
+    double sum = spline(0, h);
     rows.for_each_run(x(me), x(me), y(me), y(me), 2 * h, [&](int begin, int end) {
       for (int j = begin; j < end; ++j) {
         const double r = std::hypot(x(j) - x(me), y(j) - y(me));
         if (j == me || r >= 2 * h) continue;
         near[i].emplace_back(j, r);
-        sum += weight(r);
+        sum += spline(r, h);
       }
     });
     s.omega[i] = 1 / sum;
@@ -42,7 +47,8 @@ PairSystem pair_system(const PairScene& scene) {
   }
   std::vector<double> moment(size);
   for (std::size_t i = 0; i < size; ++i)
-    for (const auto& [j, r] : near[i]) moment[i] += 0.5 * s.omega[static_cast<std::size_t>(j)] * slope(r) * r;
+    for (const auto& [j, r] : near[i])
+      moment[i] += 0.5 * s.omega[static_cast<std::size_t>(j)] * fall_of_spline(r, h) * r;
   std::vector<Eigen::Triplet<double>> entries;
   s.mass = Field<double>("mass", size), s.depth_field = Field<double>("depth", size);
   for (std::size_t i = 0; i < size; ++i) {
@@ -53,7 +59,8 @@ PairSystem pair_system(const PairScene& scene) {
     for (const auto& [neighbour, r] : near[i]) {
       const auto j = static_cast<std::size_t>(neighbour);
       const double face = wet && s.depth[j] > 0 ? 0.5 * (s.depth[i] + s.depth[j]) : 0;  // a shore as a wall
-      const double a = k * s.omega[i] * s.omega[j] * slope(r) * (1 / moment[i] + 1 / moment[j]) * face / r;
+      const double a =
+          k * s.omega[i] * s.omega[j] * fall_of_spline(r, h) * (1 / moment[i] + 1 / moment[j]) * face / r;
       diagonal += a;
       if (a > 0) entries.emplace_back(me, neighbour, -a);
     }
