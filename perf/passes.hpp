@@ -63,13 +63,7 @@ class PassList {
 
   std::vector<Pass> with_matrix() const {
     return {{"matvec", none(), [w = w_] { w->multiply(); },
-             [w = w_] {
-               Work work = work_of(matvec_cost, w->size());
-               work.flops += matvec_cost.pair_flops * w->entries();
-               work.bytes += matvec_bytes_per_entry * w->entries();
-               work.listed = work.pairs = w->entries();
-               return work;
-             }}};
+             [w = w_] { return work_of_entries(matvec_cost, w->size(), w->entries()); }}};
   }
 
   // The work is that without walls: what they cost shows in the time.

@@ -5,6 +5,7 @@
 // whatever vanishes with the distance needs no mask.
 #pragma once
 #include "cellgrid/parallel/launch.hpp"
+#include "cellgrid/parallel/work.hpp"
 #include "cellgrid/particles/clusters.hpp"
 
 namespace freshet {
@@ -106,6 +107,15 @@ struct PairView {
 // stays in the cache.
 inline constexpr Cost matvec_cost{2, 2, 3};
 inline constexpr double matvec_bytes_per_entry = 12;
+
+// Of a pass over particles and entries, each with its coefficient and index.
+inline Work work_of_entries(const Cost& cost, double particles, double entries) {
+  Work work = work_of(cost, particles);
+  work.listed = work.pairs = entries;
+  work.flops += cost.pair_flops * entries;
+  work.bytes += matvec_bytes_per_entry * entries;
+  return work;
+}
 
 // What to pair: particles closer than factor (h_i + h_j) / 2.
 template <int D>

@@ -21,6 +21,8 @@ struct BiCgStabOptions {
   int max_iterations = 500;
 };
 
+inline constexpr Cost direction_cost{0, 4, 4}, step_along_cost{0, 4, 3}, bicgstab_advance_cost{0, 8, 7};
+
 struct BiCgStabReport {
   bool converged = false;
   int iterations = 0;

@@ -39,4 +39,30 @@ struct PairProduct {
   }
 };
 
+// Reads diagonal, mask, x and what y was, writes y.
+inline constexpr Cost product_cost{2, 5, 5};
+
+// Of a pass over the entries of some slices: for measurements. Padding, whose slot is the particle's own, is
+// no pair.
+template <class Slices>
+Work work_of_slices(const Cost& cost, const PairView& view, const Slices& slices) {
+  double particles = 0, entries = 0, pairs = 0;
+  Kokkos::parallel_reduce(
+      "linear::count_entries", Range(0, slices.count),
+      KOKKOS_LAMBDA(int k, double& p, double& all, double& own) {
+        const int s = slices(k);
+        const Lanes me = view(s);
+        p += me.count;
+        for (int e = view.start(s); e < view.start(s + 1); ++e)
+          for (int l = 0; l < me.count; ++l) {
+            all += 1;
+            own += view.slot(PairView::at(e, l)) != me.particle(l);
+          }
+      },
+      particles, entries, pairs);
+  Work work = work_of_entries(cost, particles, entries);
+  work.pairs = pairs;
+  return work;
+}
+
 }  // namespace freshet::linear

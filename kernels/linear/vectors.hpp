@@ -3,6 +3,7 @@
 // Device-safe: KOKKOS_LAMBDA with local copies only.
 #pragma once
 #include "cellgrid/parallel/launch.hpp"
+#include "cellgrid/parallel/work.hpp"
 #include "cellgrid/particles/sums.hpp"
 
 namespace freshet::linear {
@@ -41,6 +42,7 @@ inline void add(int n, double alpha, const Vector& x, const Vector& y) {
       "linear::add", Range(0, n), KOKKOS_LAMBDA(int i) { y(i) += alpha * x(i); });
 }
 
+inline constexpr Cost follow_cost{0, 2, 3};
 // y := x + beta y; beta = 0 is a copy, whatever y held.
 inline void follow(int n, const Vector& x, double beta, const Vector& y) {
   launch(

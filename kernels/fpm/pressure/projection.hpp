@@ -104,6 +104,7 @@ class Projection {
   bool knows(const Flow& flow) const { return stencils_.view().around.points == flow.points; }
 
   const Stencils<2>& stencils() const { return stencils_; }
+  const linear::ClusterMatrix& pressure_matrix() const { return poisson_.matrix(); }
 
  public:
   void find_rows(const Neighbourhood<2>& around, const Flow& flow);

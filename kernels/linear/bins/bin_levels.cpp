@@ -1,4 +1,5 @@
 // BinMultigrid: how the levels are made.
+#define EIGEN_NO_CUDA  // used on the host alone: nvcc would take its functions for device code
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>

@@ -19,6 +19,7 @@
 #include "kernels/ground/bed_spline.hpp"
 #include "kernels/linear/cg.hpp"
 #include "kernels/linear/mesh/particle_mesh.hpp"
+#include "kernels/linear/pair_product.hpp"
 #include "kernels/sisph/moving/followers.hpp"
 #include "kernels/sisph/moving/paths.hpp"
 #include "kernels/sisph/pairs/geometry.hpp"
@@ -71,6 +72,8 @@ class MovingWater {
   // Whether the next solve has the particle-mesh correction; likewise.
   bool meshed() const { return mesh_on_; }
   void set_meshed(bool on) { mesh_on_ = on; }
+  // Of a product of CG with its matrix.
+  Work product_work() const { return linear::work_of_slices(linear::product_cost, g_.pairs, g_.slices); }
   // Who beside the domain goes with whom.
   void set_followers(const Followers<D>& followers) { followers_ = followers; }
 

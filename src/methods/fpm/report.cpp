@@ -69,6 +69,19 @@ std::vector<Reading> FinitePointset::read(const std::vector<Gauge>& gauges) cons
   return readings;
 }
 
+// The solver's launches; those that fit and cut cells by their particles alone: what they compute hangs on
+// the neighbours' places.
+std::map<std::string, Work> FinitePointset::work() const {
+  const double n = points_.size();
+  std::map<std::string, Work> all{{"bicgstab::direction", work_of(linear::direction_cost, n)},
+                                  {"bicgstab::step_along", work_of(linear::step_along_cost, n)},
+                                  {"bicgstab::advance", work_of(linear::bicgstab_advance_cost, n)}};
+  for (const char* label : {"fpm::voronoi", "fpm::stencils", "fpm::predict", "fpm::rows", "fpm::correct"})
+    all[label] = work_of(Cost{}, n);
+  if (last_dt_ > 0) all["linear::multiply"] = projection_.pressure_matrix().work();
+  return all;
+}
+
 std::vector<std::string> FinitePointset::features() const {
   std::vector<std::string> on{"incompressible flow, " + std::to_string(points_.size()) +
                               " points at the start"};

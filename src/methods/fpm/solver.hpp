@@ -23,6 +23,7 @@ class FinitePointset : public Method {
   Totals totals() const override;
   Mechanics mechanics() const override;
   StepReport report() const override { return report_; }
+  std::map<std::string, Work> work() const override;
   std::vector<std::string> features() const override;
   std::vector<std::string> notes() const override;
   std::vector<Reading> read(const std::vector<Gauge>& gauges) const override;

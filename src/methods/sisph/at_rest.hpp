@@ -40,6 +40,7 @@ class EulerianSph : public SemiImplicitSph<D> {
   using Base::scene_, Base::kernel_, Base::support_, Base::particles_, Base::order_, Base::report_;
   using Base::water;
 
+  Work product_work() const override;
   std::optional<PairSource<D>> pair_source() const;
   void build_momentum();
   void build_friction();

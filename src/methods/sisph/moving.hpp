@@ -27,6 +27,7 @@ class LagrangianSph : public SemiImplicitSph<D> {
   using Base::scene_, Base::kernel_, Base::support_, Base::particles_, Base::order_, Base::bed_,
       Base::report_;
 
+  Work product_work() const override { return moving_.product_work(); }
   MovingOptions options() const;
   void require_water() const;
   void lay_friction();

@@ -1,5 +1,6 @@
 // What the run loop asks of the state: totals, features, restart scalars.
 #include "kernels/choice.hpp"
+#include "kernels/linear/pair_product.hpp"
 #include "src/methods/sisph/at_rest.hpp"
 #include "src/methods/sisph/moving.hpp"
 #include "src/text.hpp"
@@ -31,6 +32,22 @@ Totals EulerianSph<D>::totals() const {
   const OpenFlux flux = others ? OpenFlux{unknown, unknown} : open_->flux();
   totals.flux = flux.net, totals.flux_gross = flux.gross;
   return totals;
+}
+
+template <int D>
+std::map<std::string, Work> SemiImplicitSph<D>::work() const {
+  const double n = particles_.size();
+  return {{"sisph::product", product_work()},
+          {"cg::residual", work_of(linear::residual_cost, n)},
+          {"cg::advance", work_of(linear::advance_cost, n)},
+          {"linear::follow", work_of(linear::follow_cost, n)}};
+}
+
+// With recomputed coefficients what a product computes hangs on where water stands: its particles alone.
+template <int D>
+Work EulerianSph<D>::product_work() const {
+  if (scene_.sisph.recomputed) return work_of(Cost{}, particles_.size());
+  return linear::work_of_slices(linear::product_cost, geometry_.pairs, active_.list());
 }
 
 template <int D>

@@ -14,6 +14,7 @@ template <int D>
 class SemiImplicitSph : public ShallowWater<D> {
  public:
   std::string name() const override { return "sisph"; }
+  std::map<std::string, Work> work() const override;  // of the linear solver
   Totals totals() const override;
   Mechanics mechanics() const override;
   ScalarState scalars() const override;
@@ -38,6 +39,7 @@ class SemiImplicitSph : public ShallowWater<D> {
   void measure_speeds();
 
  protected:
+  virtual Work product_work() const = 0;
   double cell_ = 0;                  // m^D, that a particle covers on average
   int held_ = 0;                     // particles beside the domain
   Field<double> level_of_bed_;       // m, per particle

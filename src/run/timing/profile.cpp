@@ -67,7 +67,7 @@ class Watch {
     if (const auto& out = times_.regions(); out.count("run::output"))
       profile_.per_output = out.at("run::output").seconds / static_cast<double>(out.at("run::output").calls);
     profile_.first_step = clock.step;
-    rebuilds_ = method_.report().rebuilds;
+    before_ = method_.report();
     t_ = clock.t;
     times_.clear();
     start_ = Time::now();
@@ -79,12 +79,17 @@ class Watch {
     profile_.particle_steps += method_.fields().size();
     profile_.newton_mean += report.newton_mean;
     profile_.newton_max = std::max(profile_.newton_max, report.newton_max);
-    profile_.rebuilds = report.rebuilds - rebuilds_;
+    profile_.rebuilds = report.rebuilds - before_.rebuilds;
+    profile_.surface_passes = static_cast<double>(report.passes - before_.passes);
+    profile_.solves = static_cast<double>(report.solves - before_.solves);
+    profile_.iterations = static_cast<double>(report.iterations - before_.iterations);
+    pressure_iterations_ += report.pressure_iterations;
     profile_.simulated = clock.t - t_;
     profile_.wall = std::chrono::duration<double>(Time::now() - start_).count();
   }
 
   void end() {
+    profile_.iterations += static_cast<double>(pressure_iterations_);  // a method has these or those
     if (profile_.steps > 0) profile_.newton_mean /= static_cast<double>(profile_.steps);
     profile_.launched = times_.launched();
     profile_.step = times_.in("run::step");
@@ -104,7 +109,8 @@ class Watch {
   RunProfile profile_;
   Works at_start_;
   bool begun_ = false;
-  long rebuilds_ = 0;
+  StepReport before_;
+  long pressure_iterations_ = 0;
   double t_ = 0;
   Time::time_point start_;
 };

@@ -28,6 +28,8 @@ struct RunProfile {
   double newton_mean = 0;          // density evaluations per cluster
   int newton_max = 0;
   long rebuilds = 0;
+  // Implicit methods, all steps: passes for the surface, linear solves in them, and iterations of those.
+  double surface_passes = 0, solves = 0, iterations = 0;
   double launched = 0;                                                                  // s, inside launches
   double step = 0, launched_in_step = 0, sort = 0, observe = 0, check = 0, output = 0;  // s
   double per_output = 0;    // s, one output of particles

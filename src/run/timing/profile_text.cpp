@@ -60,6 +60,18 @@ void put_pass(JsonWriter& out, const RunProfile& p, const PassProfile& pass) {
       .end();
 }
 
+// What the solver of the method went through.
+std::string solver(const RunProfile& p) {
+  const double n = static_cast<double>(p.steps);
+  if (p.newton_max > 0)
+    return formatted("density: %.2f evaluations per cluster, at most %d; lists made again %ld times\n",
+                     p.newton_mean, p.newton_max, p.rebuilds);
+  if (p.surface_passes > 0)
+    return formatted("surface: %.2f passes, %.2f linear solves and %.1f iterations a step\n",
+                     p.surface_passes / n, p.solves / n, p.iterations / n);
+  return formatted("pressure: %.1f iterations a step\n", p.iterations / n);
+}
+
 }  // namespace
 
 std::string table(const RunProfile& p) {
@@ -75,8 +87,7 @@ std::string table(const RunProfile& p) {
   if (!p.better.empty()) lines = "built for " + p.registers + ", while " + p.better + "\n" + lines;
   for (const PassProfile& pass : p.passes) lines += row(p, pass);
   lines += shares(p);
-  lines += formatted("density: %.2f evaluations per cluster, at most %d; lists made again %ld times\n",
-                     p.newton_mean, p.newton_max, p.rebuilds);
+  lines += solver(p);
   lines += formatted(
       "%.3f s wall: %.3f million particle-steps/s, %.1f ns per particle-step, %.4g s per simulated second\n",
       p.wall, 1e-6 * per(p.particle_steps, p.wall), per(1e9 * p.wall, p.particle_steps),
@@ -98,6 +109,12 @@ std::string json(const RunProfile& p) {
   out.value("newton_mean", p.newton_mean)
       .value("newton_max", p.newton_max)
       .value("list_rebuilds", p.rebuilds);
+  if (p.iterations > 0)
+    out.begin("solver")
+        .value("passes", p.surface_passes)
+        .value("solves", p.solves)
+        .value("iterations", p.iterations)
+        .end();
   out.begin("peaks").value("flops_per_s", p.peaks.flops).value("bytes_per_s", p.peaks.bytes).end();
   out.begin("share")
       .value("launches", p.of_wall(p.launched))
