@@ -52,9 +52,9 @@ double outermost(const Fluid& fluid) {
 }  // namespace
 
 TEST_CASE("the circular dam break on wet ground is as accurate as the best known of the scheme", "[slow]") {
-  // A prototype on a disc of 640 m reached 0.0123/0.0076, 0.0144/0.0097, 0.0162/0.0118; the thesis prints
-  // 0.014/0.007, 0.015/0.009, 0.016/0.011. The bounds are the prototype's, rounded up by 2 to 6 %.
-  constexpr Bound bounds[] = {{10, 0.013, 0.008}, {30, 0.015, 0.010}, {50, 0.0165, 0.012}};
+  // The thesis prints (Table 2.2, Lax-Friedrichs with MUSCL) 0.014/0.007, 0.015/0.009, 0.016/0.011, here with
+  // half of its last digit; the first depth is held to what has been reached.
+  constexpr Bound bounds[] = {{10, 0.013, 0.0075}, {30, 0.015, 0.0095}, {50, 0.0165, 0.0115}};
   const test::CaseRun run = test::finish_case("dam_break_radial");
   const test::Results& summary = run.summary;
   const Fluid& fluid = run.fluid;
@@ -73,27 +73,33 @@ TEST_CASE("the circular dam break on wet ground is as accurate as the best known
   CHECK(direction <= 0.05);
 }
 
-TEST_CASE("the circular dam break on dry ground") {
+TEST_CASE("the circular dam break on dry ground converges, its front behind the exact one") {
   const test::CaseRun run = test::finish_case("dam_break_radial_dry");
   const test::Results& summary = run.summary;
   const Fluid& fluid = run.fluid;
   CHECK(summary.initial_particles == 5024);
   REQUIRE(summary.errors_at.size() == 3);
-  CHECK(summary.errors_at[2].errors.depth_l2_rel <= 0.022);  // a prototype: 0.0214
+  // As an independent prototype, which had 0.0214 and, with a quarter of the spacing in area (20,108
+  // particles), 0.0132. A scheme of first order rounds the corners of a rarefaction over the root of the
+  // spacing, by as much: 3/4 in L2.
+  const test::CaseRun finer = test::finish_case("dam_break_radial_dry", {"water.spacing=12.5"});
+  const double coarse = summary.errors_at[2].errors.depth_l2_rel, fine = finer.summary.errors.depth_l2_rel;
+  CAPTURE(coarse, fine);
+  CHECK(coarse <= 0.022);
+  CHECK(fine <= 0.014);
+  CHECK(std::log2(coarse / fine) >= 0.6);
   const RadialProfile reference = radial_dam_profile({10, 0, 1000}, 50, g);
   const double direction = asymmetry(fluid, reference, 25, 2000);
   CAPTURE(direction);
   CHECK(direction <= 0.05);
   // Without splitting the outermost ring has no neighbours ahead and its particles drift apart: it lags,
   // by 10.3 spacings in a prototype, behind the place where the reference is 1 cm deep. It must not run
-  // ahead.
-  const double lag = (reference.front(0.01) - outermost(fluid)) / 25;
-  CAPTURE(lag);
+  // ahead, and comes nearer with the spacing.
+  const double lag = (reference.front(0.01) - outermost(fluid)) / 25,
+               finer_lag = (reference.front(0.01) - outermost(finer.fluid)) / 25;
+  CAPTURE(lag, finer_lag);
   CHECK(lag >= 0);
   CHECK(lag <= 11);
-}
-
-TEST_CASE("the circular dam break on dry ground converges") {
-  // A quarter of the spacing in area: 20,108 particles reached 0.0132 in a prototype.
-  CHECK(test::run_case("dam_break_radial_dry", {"water.spacing=12.5"}).errors.depth_l2_rel <= 0.014);
+  CHECK(finer_lag >= 0);
+  CHECK(finer_lag < lag);
 }

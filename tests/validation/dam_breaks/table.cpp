@@ -2,6 +2,8 @@
 // (docs/formulas/swe.md (S50)).
 #include <catch2/catch.hpp>
 
+#include <cmath>
+
 #include "tests/support/run/run_case.hpp"
 
 using namespace freshet;
@@ -43,6 +45,8 @@ TEST_CASE("eta 1.2 reproduces the four printed columns") {
 
 TEST_CASE("eta 1.0 is at least as accurate as printed, its best setting three times as accurate") {
   // The best setting's bounds: 5 to 20 % above an independent prototype (5.24e-3, 2.64e-3, 1.34e-3, 7.4e-4).
+  // An L1 across a captured shock is at best of first order; 0.9 leaves room for the phase of the shock
+  // between particles.
   const Row row = GENERATE(
       Row{"AV",
           {"sph.eta=1.0", "sph.stabilise=artificial-viscosity", "sph.viscosity=[1, 0]", "time.cfl=0.2"},
@@ -52,8 +56,12 @@ TEST_CASE("eta 1.0 is at least as accurate as printed, its best setting three ti
       Row{"half LF MUSCL",
           {"sph.eta=1.0", "sph.strength=0.5", "time.cfl=0.4"},
           {6e-3, 3.2e-3, 1.6e-3, 8.5e-4}});
+  double errors[4];
   for (int k = 0; k < 4; ++k) {
     CAPTURE(row.what, spacings[k]);
-    CHECK(depth_l1(row, spacings[k]) <= row.bound[k]);
+    errors[k] = depth_l1(row, spacings[k]);
+    CHECK(errors[k] <= row.bound[k]);
   }
+  CAPTURE(row.what, errors[0], errors[3]);
+  CHECK(std::log2(errors[0] / errors[3]) / 3 >= 0.9);
 }

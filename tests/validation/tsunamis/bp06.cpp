@@ -25,6 +25,8 @@ TEST_CASE("a solitary wave wraps around a conical island", "[bp06][long]") {
   }
   CHECK(highest >= 0.032);         // the lower of the two sources
   CHECK(highest <= 1.2 * 0.0416);  // 20 % above the upper
+  // FUNWAVE without dispersion on 2.5 cm cells, in the same scripts: the same equations, a tenth.
+  CHECK(highest == Approx(0.0404).epsilon(0.1));
   // Peaks at the gauges beside the island: mean relative error below 0.2, as in the same scripts.
   double peaks = 0, errors = 0;
   int beside = 0;
@@ -39,6 +41,6 @@ TEST_CASE("a solitary wave wraps around a conical island", "[bp06][long]") {
   }
   REQUIRE(beside == 4);
   CHECK(peaks / beside < 0.2);
-  CHECK(errors < 0.2);  // mean error relative to the measured range
+  CHECK(errors < 0.2);  // of the whole series, relative to the measured range: held to the peaks' fifth
   CHECK(s.mass.relative_error <= 1e-12);
 }

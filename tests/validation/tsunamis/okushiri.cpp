@@ -52,10 +52,14 @@ TEST_CASE("okushiri: gauges, run-up and mass", "[okushiri][slow]") {
 
 TEST_CASE("okushiri: a bed rougher than the laboratory's gives clearly lower peaks", "[okushiri][long]") {
   if (skipped()) return;
-  // RMSE alone would pass a ten times too rough bed; the peaks must not. A prototype: -17, -15, -22 %.
+  // RMSE alone would pass a ten times too rough bed; the peaks must not: they leave the 10 % about the
+  // measured ones that the laboratory's bed is held to. A prototype: -17, -15, -22 %.
   const test::Results smooth = test::run_case("okushiri"),
                       rough = test::run_case("okushiri", {"bed.manning=0.025"});
-  for (std::size_t k = 0; k < 3; ++k) CHECK(rough.gauges[k].peak <= 0.92 * smooth.gauges[k].peak);
+  for (std::size_t k = 0; k < 3; ++k) {
+    CHECK(rough.gauges[k].peak <= 0.92 * smooth.gauges[k].peak);
+    CHECK(rough.gauges[k].peak < 0.9 * gauges[k].peak);
+  }
 }
 
 TEST_CASE("okushiri: still water stays still at the open boundary", "[okushiri]") {
