@@ -17,11 +17,11 @@ PairSystem pair_system(const PairScene& scene) {
   s.x = {x, y};
   s.omega.resize(size), s.depth.resize(size);
   const auto weight = [h](double r) {  // cubic spline
-    const double q = r / h, c = 10 / (7 * pi * h * h);
+    const double q = r / h, c = 10 / (7 * M_PI * h * h);
     return c * (q < 1 ? 1 - 1.5 * q * q + 0.75 * q * q * q : q < 2 ? 0.25 * std::pow(2 - q, 3) : 0);
   };
   const auto slope = [h](double r) {  // -W'
-    const double q = r / h, c = 10 / (7 * pi * h * h * h);
+    const double q = r / h, c = 10 / (7 * M_PI * h * h * h);
     return c * (q < 1 ? 3 * q - 2.25 * q * q : q < 2 ? 0.75 * std::pow(2 - q, 2) : 0);
   };
   std::vector<std::vector<std::pair<int, double>>> near(size);  // j, distance
