@@ -189,7 +189,7 @@ TEST_CASE("conservation: a pond of one cell beside a lake is an isolated particl
   for (int i = 0; i < flow.size(); ++i) {
     if (flow.real("x")(i) < 1.5) continue;
     ++found;
-    const double cap = 3 * scene.sph.eta * 0.05, norm = dimension == 1 ? 2.0 / 3 : 10 / (7 * std::acos(-1.0));
+    const double cap = 3 * scene.sph.eta * 0.05, norm = dimension == 1 ? 2.0 / 3 : 10 / (7 * pi);
     CHECK(flow.real("h")(i) == Approx(cap).epsilon(1e-12));
     CHECK(flow.real("depth")(i) ==
           Approx(flow.real("mass")(i) * norm / std::pow(cap, dimension)).epsilon(1e-11));

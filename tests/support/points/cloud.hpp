@@ -235,7 +235,7 @@ extern template class Cloud<1>;  // cloud.cpp
 extern template class Cloud<2>;
 
 // The cubic spline as thesis (1.5) prints it, piece by piece, against the branch-free form of the kernels.
-inline double printed_norm(int dimension) { return dimension == 1 ? 1.0 : 15.0 / (7.0 * std::acos(-1.0)); }
+inline double printed_norm(int dimension) { return dimension == 1 ? 1.0 : 15.0 / (7.0 * pi); }
 inline double printed_w(int dimension, double q) {
   if (q >= 2) return 0;
   return printed_norm(dimension) * (q <= 1 ? 2.0 / 3 - q * q + 0.5 * q * q * q : std::pow(2 - q, 3) / 6);

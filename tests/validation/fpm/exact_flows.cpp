@@ -75,9 +75,9 @@ TEST_CASE("A strained drop has the exact ellipse's axes and pressure") {
   CHECK(fine.a <= 5e-4);
   CHECK(fine.b <= 2e-3);
   CHECK(fine.pressure <= 1e-3);
-  // First order at least: places at the surface are those of its points. The short axis, 8 points across, is
-  // off by a thousandth of a spacing, where nothing is left that has an order.
-  CHECK(fine.a < coarse.a);
+  // First order: places at the surface are those of its points. The short semi-axis, 4 and 8 spacings
+  // long and off by a thousandth of one, falls short of it: 0.94 was found.
+  CHECK(std::log2(coarse.a / fine.a) >= 0.9);
   CHECK(std::log2(coarse.b / fine.b) >= 1);
   CHECK(std::log2(coarse.pressure / fine.pressure) >= 1);
 }

@@ -49,7 +49,7 @@ TEST_CASE("sisph: the thesis' hump about to break (7.1.1)", "[sisph]") {
 }
 
 // A scheme of first order rounds the corners of a rarefaction over the root of the spacing, by as much: 3/4
-// in L2.
+// in L2 in the limit; 0.77 and 0.79 were found.
 TEST_CASE("sisph: two rarefactions (7.1.2)", "[sisph]") {
   const double bound[] = {2.0e-2, 1.2e-2, 6.8e-3};
   double before = 0;
@@ -72,7 +72,8 @@ TEST_CASE("sisph: the lake in a basin (7.1.3)", "[sisph]") {
                  coarse = run("sisph_lake", {with, "water.spacing=0.05", "time.dt=0.02"});
     CAPTURE(theta, coarse.depth_l2, r.depth_l2);
     CHECK(r.depth_l2 <= bound);
-    CHECK(std::log2(coarse.depth_l2 / r.depth_l2) >= 0.8);
+    // The step goes with the spacing: with theta 0.55 first order in time, with 0.5 it is not less.
+    CHECK(std::log2(coarse.depth_l2 / r.depth_l2) >= 1);
     CHECK(r.summary.mass.relative_error < 1e-13);
     CHECK(r.report.unsettled == 0);
   }

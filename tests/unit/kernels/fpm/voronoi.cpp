@@ -195,8 +195,7 @@ TEST_CASE("voronoi: flat and wavy surfaces, rough by up to a fifth of a spacing,
     auto points = square_of(80, 12);
     test::Random random(31);
     for (Point& p : points) {
-      const double wave =
-          shape.amplitude * dx * std::sin(2 * std::acos(-1.0) * p[0] / (8 * dx)) * p[1] / (12 * dx);
+      const double wave = shape.amplitude * dx * std::sin(2 * pi * p[0] / (8 * dx)) * p[1] / (12 * dx);
       p = {p[0], p[1] + wave + random(-shape.rough, shape.rough) * dx};
     }
     FlowPoints s(points, dx);

@@ -19,7 +19,7 @@ double norm() {
   double sum = 0;
   for (int k = 0; k <= n; ++k) {
     const double q = 2.0 * k / n, weight = (k == 0 || k == n) ? 1 : (k % 2 == 1 ? 4 : 2);
-    sum += weight * CubicSpline<D>::at(q).w * (D == 1 ? 2.0 : 2 * std::acos(-1.0) * q);
+    sum += weight * CubicSpline<D>::at(q).w * (D == 1 ? 2.0 : 2 * pi * q);
   }
   return sum * (2.0 / n) / 3;
 }
@@ -98,7 +98,7 @@ double general_norm(const KernelChoice& choice) {
   double sum = 0;
   for (int k = 0; k <= n; ++k) {
     const double q = kernel.support * k / n, weight = (k == 0 || k == n) ? 1 : (k % 2 == 1 ? 4 : 2);
-    sum += weight * kernel.at(q).w * (D == 1 ? 2.0 : 2 * std::acos(-1.0) * q);
+    sum += weight * kernel.at(q).w * (D == 1 ? 2.0 : 2 * pi * q);
   }
   return sum * (kernel.support / n) / 3;
 }

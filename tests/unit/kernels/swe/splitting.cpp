@@ -67,7 +67,7 @@ TEST_CASE("splitting: integrals of kernel products are exact") {
   const double step = 0.02;
   for (int k = 0; k < 200; ++k) {
     line += (k > 0 ? 2 : 1) * step * swe::kernel_product<1>(1, 0.8, k * step);
-    plane += 2 * std::acos(-1.0) * k * step * step * swe::kernel_product<2>(1, 0.8, k * step);
+    plane += 2 * pi * k * step * step * swe::kernel_product<2>(1, 0.8, k * step);
   }
   CHECK(line == Approx(1).epsilon(1e-6));
   CHECK(plane == Approx(1).epsilon(1e-4));

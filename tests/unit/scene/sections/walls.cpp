@@ -47,7 +47,7 @@ TEST_CASE("Closed walls are turned so that the water is on their left") {
 
 TEST_CASE("A circle has the area that it is named with") {
   const Scene scene = tank("[[wall]]\ncircle = { centre = [2, 2], radius = 1.5 }\nwater = \"inside\"\n");
-  CHECK(signed_area(scene.walls[0].line) == Approx(std::acos(-1.0) * 2.25).epsilon(1e-12));
+  CHECK(signed_area(scene.walls[0].line) == Approx(pi * 2.25).epsilon(1e-12));
   for (const Point& p : scene.walls[0].line)
     CHECK(std::hypot(p[0] - 2, p[1] - 2) == Approx(1.5).epsilon(1e-3));
 }
@@ -56,7 +56,7 @@ TEST_CASE("Water starts on the wet side of closed walls, cut cells with their pa
   const std::string circle = "[[wall]]\ncircle = { centre = [2, 2], radius = 1.5 }\nwater = \"inside\"\n";
   const std::string hole =
       "[[wall]]\npolygon = [[1.5, 1.5], [2.5, 1.5], [2.5, 2.5], [1.5, 2.5]]\nwater = \"outside\"\n";
-  const double disc = std::acos(-1.0) * 2.25;
+  const double disc = pi * 2.25;
   // Slivers below a quarter of a cell are left out: on average 1/32 of each cell along the wall, 94 dx long:
   // 0.03 m2; and the parts are counted in hundredths.
   CHECK(water_area(tank(circle)) == Approx(disc).margin(0.04));
