@@ -21,6 +21,7 @@ struct BiCgStabOptions {
   int max_iterations = 500;
 };
 
+// Of the passes of an iteration beside products, preconditioner and dot products.
 inline constexpr Cost direction_cost{0, 4, 4}, step_along_cost{0, 4, 3}, bicgstab_advance_cost{0, 8, 7};
 
 struct BiCgStabReport {

@@ -12,8 +12,8 @@ namespace freshet {
 
 struct GaugeRow {
   double t = 0;  // s
-  std::vector<double>
-      value;  // in the unit of each gauge's measurand; of an elevation the bed's level where dry
+  // in the unit of each gauge's measurand; of an elevation the bed's level where dry
+  std::vector<double> value;
   std::vector<bool> dry;
 };
 

@@ -103,6 +103,9 @@ std::string unit_in(const std::string& units, const std::string& name) {
   return "";
 }
 
+// Not stored as float32.
+bool is_long(const std::string& name) { return name == "x" || name == "y" || name == "id"; }
+
 std::vector<std::string> in_order(std::vector<std::string> names) {
   const std::vector<std::string> first{"x", "y", "z", "depth", "v_0", "v_1", "p"};
   std::stable_sort(names.begin(), names.end(), [&](const std::string& a, const std::string& b) {
@@ -177,7 +180,7 @@ ParticleStep read_particle_step(const std::string& path, int step) {
   read.t = group.real_attribute("TimeValue");
   const std::string units = file.open("freshet").text_attribute("units");
   for (const std::string& name : in_order(group.names()))
-    read.columns.push_back({name, unit_in(units, name), group.reals(name)});
+    read.columns.push_back({name, unit_in(units, name), is_long(name) ? 12 : 8, group.reals(name)});
   return read;
 }
 

@@ -32,14 +32,15 @@ class ParticleFile {
 
 struct ParticleColumn {
   std::string name, unit;
+  int digits;  // that tell stored values apart: 12 of places and ids, 8 of float32
   std::vector<double> values;
 };
 
 struct ParticleStep {
   int step = 0;
   double t = 0;  // s
-  std::vector<ParticleColumn>
-      columns;  // x, y, z, depth, v_0, v_1, p, those of them that the file has, then the others
+  // x, y, z, depth, v_0, v_1, p, those of them that the file has, then the others
+  std::vector<ParticleColumn> columns;
 
   const std::vector<double>& operator[](const std::string& name) const;  // empty where the file has none
   std::size_t size() const { return (*this)["x"].size(); }

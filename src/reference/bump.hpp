@@ -16,10 +16,10 @@ struct Bump {
 
 struct BumpFlow {
   double velocity;  // m/s, at the inflow on the left
-  std::optional<double>
-      inflow_depth;  // m; given: supercritical inflow that stays so; else the crest is critical
-  std::optional<double>
-      outflow_depth;  // m; given: a jump brings the flow to this depth, if it fits on the bump
+  // m; given: supercritical inflow that stays so; else the crest is critical
+  std::optional<double> inflow_depth;
+  // m; given: a jump brings the flow to this depth, if it fits on the bump
+  std::optional<double> outflow_depth;
 };
 
 class SteadyBumpFlow : public Exact {

@@ -71,7 +71,9 @@ std::string boundary(const OpenBoundary& boundary, const Domain& domain) {
 }
 
 std::string gauge(const Gauge& gauge, const Domain& domain) {
-  std::string out = gauge.name + " at " + point(gauge.at, domain);
+  const bool level = gauge.what == Gauge::What::elevation, front = gauge.what == Gauge::What::front;
+  std::string out = gauge.name + (level ? "" : std::string(", ") + gauge.measurand().name) +
+                    (front ? ": largest x of the water" : " at " + point(gauge.at, domain));
   if (!gauge.measured) return out;
   const Series& measured = *gauge.measured;
   return out + ", measured " + counted(measured.t.size(), "row") + ", t " + brief(measured.t.front()) +

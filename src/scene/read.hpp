@@ -24,8 +24,8 @@ struct KeyNote {
   std::string path;  // "water.spacing"; of tables in arrays their name or number, "boundary.0.type"
   std::string what;  // "a number in m"
   std::string rule;  // "positive"
-  std::string
-      standard;  // its default, as a scene would write it, "required", or "" where it is not one value
+  // its default, as a scene would write it, "required", or "" where it is not one value
+  std::string standard;
 };
 
 // Every key whose value the reader asked this scene for, named or not, in the order of reading. Of keys that

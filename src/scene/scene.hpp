@@ -76,8 +76,8 @@ struct OpenBoundary {
   OpenLaw at(double time) const;
 };
 
-// What a gauge can show: its name in scenes and files, its unit there, and those of tables of errors and of
-// peaks.
+// What a gauge can show, in the order of Gauge::What: its name in scenes and files, its unit there, and those
+// of tables of errors and of peaks.
 struct Measurand {
   const char *name, *unit;
   struct Scale {

@@ -17,11 +17,11 @@ struct BinLevel {
   Field<int> bin;        // of an unknown
   Field<int> parent;     // of an unknown: its number on the next level
   Field<double> weight;  // unknowns of the matrix in it
-  Kokkos::View<double**, Kokkos::LayoutLeft, Memory>
-      a;  // [unknown][slot], slot = (dy + ry) (2 rx + 1) + dx + rx
+  // [unknown][slot], slot = (dy + ry) (2 rx + 1) + dx + rx
+  Kokkos::View<double**, Kokkos::LayoutLeft, Memory> a;
   Kokkos::View<int**, Kokkos::LayoutLeft, Memory> column;
-  Field<int>
-      even;  // of a block of rows: 1 where the columns of each slot follow each other, as away from the rim
+  // of a block of rows: 1 where the columns of each slot follow each other, as away from the rim
+  Field<int> even;
   Vector inverse_diagonal;
   Vector b, x, y;  // of the cycle
 

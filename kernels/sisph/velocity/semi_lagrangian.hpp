@@ -32,8 +32,8 @@ class SemiLagrangian {
   double spacing_, support_;
   int stride_;
   Field<double> inverse_;  // per particle, terms (terms + 1) / 2 values, each of stride_ particles
-  Field<double>
-      mean_;  // per particle: weighted means of the terms and of 1 over its neighbours, x the lift's share
+  // per particle: weighted means of the terms and of 1 over its neighbours, x the lift's share
+  Field<double> mean_;
   Field<double> own2_;    // m2: nearer than this to a particle no other is nearer
   Field<double> fitted_;  // per particle: terms of v.x, (v.y), u.x, (u.y), and after each the neighbours'
                           // mean height over them, likewise

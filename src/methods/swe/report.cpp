@@ -57,7 +57,10 @@ std::vector<std::string> ExplicitSph<D>::features() const {
   if (depth_gradient_) names.push_back("depth gradient");
   if (scene_.sph.well_balanced) names.push_back("well-balanced bed");
   else if (bed_)
-    names.push_back(variational_ ? "bed, variational acceleration" : "bed, classical acceleration");
+    names.push_back(variational_ ? "bed, variational acceleration"
+                    : scene_.sph.acceleration == Acceleration::classical
+                        ? "bed, classical acceleration"
+                        : "bed, classical acceleration (nearly flat: the variational one is within 1e-6 g)");
   if (friction_)
     names.push_back(friction_->roughness2.given() ? "Manning friction by place" : "Manning friction");
   if (walls_)

@@ -18,10 +18,10 @@ usage:
   freshet run SCENE [key=value ...] [--out DIR] [--threads N] [--overwrite] [--quiet]
   freshet resume DIR [--threads N] [--quiet]     go on with a run that was stopped
   freshet check SCENE [key=value ...] [--threads N]   read the scene back: extent, particles, steps, features
-  freshet check SCENE [key=value ...] --keys     every key that it may have: type, rule, default
+  freshet check SCENE [key=value ...] --keys     the keys that are looked for in it: type, rule, default
   freshet profile SCENE [key=value ...] [--steps N] [--threads N] [--json]   where the time of N (200) steps goes
   freshet list                                   the cases that come with the program
-  freshet points DIR [--step K] [--csv FILE]     particles of one output as x,y,z,depth,v_0,v_1 (K: the last)
+  freshet points DIR [--step K] [--csv FILE]     particles of one output, a column each of what it holds (K: the last)
   freshet points DIR --list                      number and time of each output
   freshet difference DIR DIR                     two runs of one scene, particle by particle, from their state.h5
   freshet --version | --help

@@ -68,8 +68,7 @@ void print_rows(std::FILE* out, const ParticleStep& step) {
   for (std::size_t i = 0; i < step.size(); ++i) {
     comma = "\n";
     for (const ParticleColumn& column : step.columns) {
-      std::fprintf(out, column.name == "x" || column.name == "y" ? "%s%.12g" : "%s%.8g", comma,
-                   column.values[i]);
+      std::fprintf(out, "%s%.*g", comma, column.digits, column.values[i]);
       comma = ",";
     }
   }

@@ -11,15 +11,16 @@
 
 namespace freshet {
 
+// Values in the unit of what the gauge shows, times in s.
 struct GaugeResult {
   std::string name;
-  double rmse = unknown, max_abs_error = unknown;      // over the measured times that lie in the run
-  double rmse_window = unknown;                        // the same over the window of the main wave
-  std::pair<double, double> window{unknown, unknown};  // s
-  double peak = unknown, peak_time = unknown;          // and s, after Gauge::peak_after
-  double measured_peak = unknown, measured_peak_time = unknown;  // and s
-  double arrival = unknown, measured_arrival = unknown;          // s, first crossing of Gauge::arrival_level
-  double dry = 0;                                                // fraction of the rows
+  double rmse = unknown, max_abs_error = unknown;  // over the measured times that lie in the run
+  double rmse_window = unknown;                    // the same over the window of the main wave
+  std::pair<double, double> window{unknown, unknown};
+  double peak = unknown, peak_time = unknown;  // after Gauge::peak_after
+  double measured_peak = unknown, measured_peak_time = unknown;
+  double arrival = unknown, measured_arrival = unknown;  // first crossing of Gauge::arrival_level
+  double dry = 0;                                        // fraction of the rows
 };
 
 // Column `index` of the rows as a series.

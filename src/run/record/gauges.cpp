@@ -1,5 +1,7 @@
 #include "src/run/record/gauges.hpp"
 
+#include <algorithm>
+
 #include "src/io/files.hpp"
 
 namespace freshet {
@@ -15,7 +17,7 @@ double interval(const Scene& scene) {
 
 Reading between(const Reading& a, const Reading& b, double w) {
   const double value = lerp(a.wet ? a.value : 0, b.wet ? b.value : 0, w);
-  return {value, lerp(a.base, b.base, w), (a.wet || b.wet) && value >= b.film, b.film};
+  return {value, lerp(a.base, b.base, w), a.wet || b.wet, b.film};
 }
 
 void write_json(JsonWriter& out, const GaugeResult& gauge, const Measurand& shown) {
@@ -47,13 +49,14 @@ std::string row(const GaugeResult& g, const Measurand& shown) {
                    s(g.measured_arrival).c_str());
 }
 
-// The gauges that show quantities of this unit; nothing where there are none.
+bool same_unit(const Measurand& a, const Measurand& b) { return a.unit == std::string(b.unit); }
+
+// The gauges that show something in this unit.
 std::string table(const std::vector<Gauge>& gauges, const std::vector<GaugeResult>& results,
                   const Measurand& shown) {
   std::string rows;
   for (std::size_t g = 0; g < gauges.size(); ++g)
-    if (gauges[g].measurand().unit == std::string(shown.unit)) rows += row(results[g], shown);
-  if (rows.empty()) return "";
+    if (same_unit(gauges[g].measurand(), shown)) rows += row(results[g], shown);
   const std::string fine = formatted("[%s]", shown.fine.unit),
                     peak = formatted("peak [%s]", shown.coarse.unit);
   return formatted("\n%-12s %8s %8s %8s   %15s   %15s   %15s\n", "gauge", "rmse", "in wave", "max",
@@ -128,8 +131,13 @@ void GaugeRecorder::report(const Method&, const Clock&, Report& report) const {
   JsonWriter& out = report.object("gauges");
   for (std::size_t g = 0; g < all.size(); ++g) write_json(out, all[g], gauges_[g].measurand());
   out.end();
-  for (const auto what : {Gauge::What::elevation, Gauge::What::pressure})  // front has elevation's units
-    report.tables += table(gauges_, all, Gauge::measurands[static_cast<std::size_t>(what)]);
+  for (std::size_t g = 0; g < gauges_.size(); ++g) {  // a table where a unit is the first of its kind
+    const auto same = [&](const Gauge& other) {
+      return same_unit(other.measurand(), gauges_[g].measurand());
+    };
+    if (std::none_of(gauges_.begin(), gauges_.begin() + static_cast<long>(g), same))
+      report.tables += table(gauges_, all, gauges_[g].measurand());
+  }
 }
 
 }  // namespace freshet

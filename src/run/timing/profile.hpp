@@ -19,16 +19,18 @@ struct PassProfile {
 
 struct RunProfile {
   std::string scene, method, backend, registers;
-  std::string
-      better;  // what to do for wider registers, where the machine has them (cellgrid/parallel/runtime.hpp)
+  // what to do for wider registers, where the machine has them (cellgrid/parallel/runtime.hpp)
+  std::string better;
   int threads = 0;
   long first_step = 0, steps = 0;
   double particle_steps = 0;
   double wall = 0, simulated = 0;  // s, of these steps
-  double newton_mean = 0;          // density evaluations per cluster
+  // Explicit SPH: density evaluations per cluster, and how often neighbour lists were made again.
+  double newton_mean = 0;
   int newton_max = 0;
   long rebuilds = 0;
-  // Implicit methods, all steps: passes for the surface, linear solves in them, and iterations of those.
+  // The implicit methods, all steps: passes for the surface, linear solves in them, iterations of those or of
+  // the pressure's.
   double surface_passes = 0, solves = 0, iterations = 0;
   double launched = 0;                                                                  // s, inside launches
   double step = 0, launched_in_step = 0, sort = 0, observe = 0, check = 0, output = 0;  // s

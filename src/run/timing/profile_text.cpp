@@ -63,7 +63,7 @@ void put_pass(JsonWriter& out, const RunProfile& p, const PassProfile& pass) {
 // What the solver of the method went through.
 std::string solver(const RunProfile& p) {
   const double n = static_cast<double>(p.steps);
-  if (p.newton_max > 0)
+  if (p.newton_mean > 0)
     return formatted("density: %.2f evaluations per cluster, at most %d; lists made again %ld times\n",
                      p.newton_mean, p.newton_max, p.rebuilds);
   if (p.surface_passes > 0)
@@ -106,10 +106,11 @@ std::string json(const RunProfile& p) {
       .value("simulated", p.simulated)
       .value("particle_steps_per_s", per(p.particle_steps, p.wall));
   out.value("seconds_per_simulated_second", per(p.wall, p.simulated));
-  out.value("newton_mean", p.newton_mean)
-      .value("newton_max", p.newton_max)
-      .value("list_rebuilds", p.rebuilds);
-  if (p.iterations > 0)
+  if (p.newton_mean > 0)
+    out.value("newton_mean", p.newton_mean)
+        .value("newton_max", p.newton_max)
+        .value("list_rebuilds", p.rebuilds);
+  else
     out.begin("solver")
         .value("passes", p.surface_passes)
         .value("solves", p.solves)

@@ -21,7 +21,7 @@ double finite_depth(const Function& depth, double x, double y) {
   return d;
 }
 
-// EvenCells along one side of the box.
+// Equal cells along one side of the box.
 struct EvenCells {
   int n;
   double low, width;

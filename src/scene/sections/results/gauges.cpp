@@ -33,10 +33,10 @@ std::array<Point, 2> transect_line(Table& section, const Scene& scene) {
   return {};
 }
 
-auto quantities() {
+std::vector<std::pair<std::string, Gauge::What>> measurands() {
   std::vector<std::pair<std::string, Gauge::What>> words;
-  for (const auto what : {Gauge::What::elevation, Gauge::What::pressure, Gauge::What::front})
-    words.emplace_back(Gauge::measurands[static_cast<std::size_t>(what)].name, what);
+  for (const Measurand& m : Gauge::measurands)
+    words.emplace_back(m.name, static_cast<Gauge::What>(words.size()));
   return words;
 }
 
@@ -68,7 +68,7 @@ void read_gauge(Table& section, Scene& scene) {
   gauge.name = section.text("name").required();
   require_new_name(section, scene.gauges, gauge.name);
   using What = Gauge::What;
-  if (scene.fpm) gauge.what = section.choice<What>("what", quantities()).otherwise(What::elevation);
+  if (scene.fpm) gauge.what = section.choice<What>("what", measurands()).otherwise(What::elevation);
   if (gauge.what != What::front) {
     Value<Point> at = section.point("at", scene.domain.dimension);
     gauge.at = at.required();
@@ -77,7 +77,8 @@ void read_gauge(Table& section, Scene& scene) {
   Table measured = section.table("measured");
   if (measured.given()) gauge.measured = read_series(measured, SeriesUse::measured);
   gauge.peak_after = section.number("peak_after", "s").at_least(0).otherwise(gauge.peak_after);
-  gauge.arrival_level = section.number("arrival_level", "m").otherwise(gauge.arrival_level);
+  gauge.arrival_level =
+      section.number("arrival_level", gauge.measurand().unit).otherwise(gauge.arrival_level);
   scene.gauges.push_back(std::move(gauge));
 }
 

@@ -16,7 +16,7 @@ void read_rasters(Table& section, Scene& scene) {
   const double cells = (domain.high[0] - domain.low[0]) * (domain.high[1] - domain.low[1]) /
                        (rasters.spacing * rasters.spacing);
   constexpr double most = 1e8;  // a gigabyte and more of each map as text
-  if (section.given() && domain.dimension == 2 && cells > most)
+  if (section.given() && domain.dimension == 2 && rasters.spacing > 0 && cells > most)
     spacing.fail("a raster of cells of " + shown(rasters.spacing) + " m has " +
                      shown(std::round(1e-6 * cells)) + " million; at most 100 million are written",
                  "a larger raster.spacing");

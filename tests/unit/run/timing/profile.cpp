@@ -179,6 +179,22 @@ TEST_CASE("a profile as a table and as JSON") {
   CHECK_THAT(text, Contains("\"seconds_per_simulated_second\": 0.02"));
 }
 
+TEST_CASE("a profile tells what the solver of its method went through") {
+  using Catch::Contains;
+  RunProfile p;
+  p.steps = 10, p.newton_max = 2;  // of sisph: the most solves in a pass
+  p.surface_passes = 20, p.solves = 25, p.iterations = 150;
+  CHECK_THAT(table(p), Contains("surface: 2.00 passes, 2.50 linear solves and 15.0 iterations a step\n"));
+  CHECK_THAT(table(p), !Contains("density:"));
+  CHECK_THAT(json(p), Contains("\"iterations\": 150") && !Contains("newton_max"));
+  p.newton_max = 0, p.surface_passes = p.solves = 0;
+  CHECK_THAT(table(p), Contains("pressure: 15.0 iterations a step\n"));
+  p.newton_mean = 1.25, p.newton_max = 3, p.iterations = 0;
+  CHECK_THAT(table(p),
+             Contains("density: 1.25 evaluations per cluster, at most 3; lists made again 0 times\n"));
+  CHECK_THAT(json(p), Contains("\"newton_max\": 3") && !Contains("\"solver\""));
+}
+
 TEST_CASE("peaks are those of a processor") {
   const Peaks peaks = measure_peaks();
   CHECK(peaks.flops > 1e8);
